@@ -1,128 +1,18 @@
-"""Radii as unknowns: known sums, exact gaps, the optimality of the end by another solver, bad input, stops, search, proof."""
+"""Radii as unknowns: weights, bounds, bad input, stops, search, proof. Maxima are tested in test_radii_maxima.py."""
 import tempfile
 import unittest
 from decimal import Decimal
-from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-from scipy.optimize import linprog, minimize
 
 import jam
 import jam.radii
+from radii_oracle import least_exact_gap
 
 
 def box(n, dim=2, seed=1, **more):
     return jam.System.random(n=n, dim=dim, walls="xyz"[:dim], seed=seed, **more)
-
-
-SCENES = (  # n, dim, axes with walls, cell
-    (1, 2, "xy", None), (2, 3, "xyz", None), (7, 2, "x", None), (12, 2, "xy", [[1.0, 0.0], [0.0, 0.4]]),
-    (20, 3, "z", None), (16, 3, "xyz", None), (10, 2, "", [[1.0, 0.0], [0.3, 0.8]]), (9, 3, "", None), (40, 2, "xy", None),
-)
-
-
-def scenes():
-    for n, dim, walls, cell in SCENES:
-        yield jam.System.random(n=n, dim=dim, seed=3, **({"walls": walls} if walls else {}), **({} if cell is None else {"cell": cell}))
-
-
-def walls_of(s):
-    table = s.walls()
-    return [(int(axis), bool(side)) for axis, side in zip(table.axis, table.side)]
-
-
-def least_exact_gap(s):
-    """The least |r|^2 - (R_i + R_j)^2 and distance - R, of nearest images, in exact numbers."""
-    x, radius = [[Fraction(v) for v in row] for row in s.positions], [Fraction(v) / 2 for v in s.diameters]
-    cell = [[Fraction(v) for v in row] for row in s.cell]
-    walls = walls_of(s)
-    closed = {axis for axis, _ in walls}
-    shifts = [[]]
-    for c in range(s.dim):
-        shifts = [k + [m] for k in shifts for m in ((0,) if c in closed else (-1, 0, 1))]
-    gaps = [(cell[a][a] - x[i][a] if far else x[i][a]) - radius[i] for i in range(s.n) for a, far in walls]
-    for i in range(s.n):
-        for j in range(i + 1):
-            for k in shifts:
-                if i == j and not any(k):
-                    continue
-                r = [x[i][c] - x[j][c] + sum(m * cell[b][c] for b, m in enumerate(k)) for c in range(s.dim)]
-                gaps.append(sum(v * v for v in r) - (radius[i] + radius[j]) ** 2)
-    return min(gaps)
-
-
-def rows_of(s, reach):
-    """Linear rows c + A x >= 0 of pairs and walls with gaps below reach, x: (s_i, t_i) of each sphere; nearest images."""
-    x, radius, cell, d = s.positions, s.diameters / 2, s.cell, s.dim
-    walls = walls_of(s)
-    closed = {axis for axis, _ in walls}
-    rows, gaps = [], []
-
-    def add(gap, *parts):
-        row = np.zeros((s.n, d + 1))
-        for i, n in parts:
-            row[i, :d] += n
-            row[i, d] -= 1
-        rows.append(row.ravel()), gaps.append(gap)
-
-    for i in range(s.n):
-        for axis, far in walls:
-            e = np.eye(d)[axis]
-            add((cell[axis, axis] - x[i, axis] if far else x[i, axis]) - radius[i], (i, -e if far else e))
-        for j in range(i + 1):
-            for k in np.ndindex(*[1 if c in closed else 3 for c in range(d)]):
-                shift = np.array([m - (0 if c in closed else 1) for c, m in enumerate(k)])
-                r = x[i] - x[j] + shift @ cell
-                length = np.sqrt(r @ r)
-                if length > 0 and length - radius[i] - radius[j] < reach:
-                    add(length - radius[i] - radius[j], (i, r / length), (j, -r / length))
-    return np.array(rows), np.array(gaps)
-
-
-class Known(unittest.TestCase):
-    def test_sums_that_are_algebraic(self):
-        for n, dim, value in ((1, 2, 0.5), (2, 2, 2 - 2**0.5), (1, 3, 0.5), (2, 3, 3**0.5 / (1 + 3**0.5))):
-            for seed in range(1, 6):
-                report = box(n, dim, seed).maximise_radii()
-                self.assertTrue(report.maximum)
-                self.assertLess(abs(report.value - value), 1e-14)
-
-    def test_one_sphere_that_touches_its_images(self):
-        s = jam.System.random(n=1, dim=2, cell=[[1.0, 0.0], [0.25, 2.0]], seed=1)
-        self.assertLess(abs(s.maximise_radii().value - 0.5), 1e-14)
-
-    def test_other_units_and_boxes(self):
-        for box_side in (1e-6, 3e4):
-            s = jam.System.random(n=2, dim=2, walls="xy", box=box_side, seed=2)
-            self.assertLess(abs(s.maximise_radii().value / box_side - (2 - 2**0.5)), 1e-14)
-
-    def test_a_symmetric_saddle_is_left(self):
-        """Side by side forces balance, and neither disk can grow; off the line both can."""
-        s = jam.System.from_arrays([[0.25, 0.5], [0.75, 0.5]], radii=0.25, box=1.0, walls="xy")
-        report = s.maximise_radii()
-        self.assertGreater(report.saddles, 0)
-        self.assertLess(abs(report.value - (2 - 2**0.5)), 1e-14)
-
-    def test_no_other_method_finds_more(self):
-        """Sequential quadratic programming from random points, for four disks at most."""
-        rng = np.random.default_rng(1)
-        for n in (3, 4):
-            pairs = [(i, j) for i in range(n) for j in range(i)]
-
-            def gaps(u):
-                u = u.reshape(n, 3)
-                apart = [np.hypot(*(u[i, :2] - u[j, :2])) - u[i, 2] - u[j, 2] for i, j in pairs]
-                return np.concatenate([apart, (u[:, :2] - u[:, 2:]).ravel(), (1 - u[:, :2] - u[:, 2:]).ravel(), u[:, 2]])
-
-            most = 0.0
-            for _ in range(40):
-                start = np.c_[rng.random((n, 2)), np.full(n, 0.01)].ravel()
-                made = minimize(lambda u: -u.reshape(n, 3)[:, 2].sum(), start, constraints={"type": "ineq", "fun": gaps}, method="SLSQP")
-                if gaps(made.x).min() > -1e-9:
-                    most = max(most, -made.fun)
-            found = jam.radii.best_of(n, walls="xy", starts=4, workers=1)
-            self.assertLess(abs(found.value - most), 1e-6)
 
 
 class Maximum(unittest.TestCase):
@@ -132,29 +22,6 @@ class Maximum(unittest.TestCase):
             s = jam.System.random(n=7, dim=3, seed=seed, cell=[[1.0, 0.0, 0.0], [0.37, 0.81, 0.0], [-0.21, 0.333, 1.1]])
             self.assertTrue(s.maximise_radii().maximum)
             self.assertGreaterEqual(least_exact_gap(s), 0)
-
-    def test_no_overlap_in_exact_numbers_and_no_rattlers(self):
-        for s in scenes():
-            report = s.maximise_radii()
-            self.assertTrue(report.maximum, report)
-            self.assertGreaterEqual(least_exact_gap(s), 0)
-            self.assertEqual(report.rattlers, 0)
-            self.assertLess(report.max_contact_gap, 1e-14)
-            self.assertLess(report.balance_residual, 1e-12)
-            self.assertGreater(report.min_force, 0)
-            self.assertLess(abs(report.value - s.diameters.sum() / 2), 1e-14 * s.n)
-            self.assertTrue(s.report.jammed)
-
-    def test_another_solver_finds_no_ascent(self):
-        """HiGHS on the linear rows at the end: within a step of 1e-3 nothing is gained beyond its tolerance."""
-        for s in scenes():
-            s.maximise_radii()
-            a, c = rows_of(s, 0.1)
-            cost = np.zeros((s.n, s.dim + 1))
-            cost[:, -1] = -1.0
-            answer = linprog(cost.ravel(), A_ub=-a, b_ub=np.maximum(c, 0.0), bounds=(-1e-3, 1e-3), method="highs")
-            self.assertEqual(answer.status, 0)
-            self.assertLess(-answer.fun, 1e-8)
 
     def test_forces_on_a_sphere_add_up_to_its_weight(self):
         weights = np.linspace(0.5, 2.0, 12)
@@ -232,11 +99,11 @@ class Maximum(unittest.TestCase):
 
 class Refused(unittest.TestCase):
     def refused(self, system, error, text, *given, **options):
-        before = system.positions.copy(), system.diameters.copy()
+        before = system.positions.copy(), system.diameters.copy(), system.cell.copy()
         with self.assertRaisesRegex(error, text):
             system.maximise_radii(*given, **options)
-        np.testing.assert_array_equal(system.positions, before[0])
-        np.testing.assert_array_equal(system.diameters, before[1])
+        for was, now in zip(before, (system.positions, system.diameters, system.cell)):
+            np.testing.assert_array_equal(was, now)
 
     def test_bad_input_moves_nothing(self):
         s, wrong = box(5), jam.errors.ArgumentError
@@ -259,6 +126,29 @@ class Refused(unittest.TestCase):
         soft = jam.System.random(n=20, dim=2, packing_fraction=0.9, overlap="allow")
         self.refused(soft, jam.errors.OverlapError, "overlap")
 
+    def test_moments_that_cannot_be_kept_move_nothing(self):
+        six = jam.System.random(n=6, dim=2, walls="xy", seed=1, diameters=np.random.default_rng(1).uniform(0.6, 1.4, 6))
+        two = jam.System.random(n=6, dim=2, walls="xy", seed=1, diameters=[1, 1, 1, 1.4, 1.4, 1.4])
+        for text, system, given, options in (
+            ("exponent_1 is 2 and exponent_3 2: nearer than 0.001 they count as one moment twice", six, (), dict(moments=(2, 1, 2))),
+            ("exponent_2 is 0, .* the number of spheres", six, (), dict(moments=(1, 0))),
+            ("exponent_1 is 9, its size must be 0.001 to 8", six, (), dict(moments=[9])),
+            ("weights and moments", six, (np.ones(6),), dict(moments=(1, 2))),
+            ("radius_min 0.5 and radius_max inf", six, (), dict(moments=(1, 2), radius_min=0.5)),
+            ("not between radius_min", six, (), dict(moments=(1, 2), radius_max=1e-3)),
+            ("too alike for 2 moments", box(6), (), dict(moments=(1, 2))),
+            ("too alike for 3 moments.* at least 3 values", two, (), dict(moments=(1, 2, 3))),
+        ):
+            self.refused(system, jam.errors.ArgumentError, text, *given, **options)
+        self.refused(six, ValueError, "moments has 5 exponents, one to four are possible", moments=(1, 2, 3, 4, 5))
+
+    def test_cells_that_cannot_deform_move_nothing(self):
+        few = "a maximum of radii that changes the cell at fixed volume needs at least 2 axes without walls, this scene has {}"
+        for scene, strain, axes in (({"walls": "yz"}, "free", 1), ({"dim": 2, "walls": "xy"}, "tilts", 0), ({"container": "cylinder"}, "edges", 1)):
+            self.refused(jam.System.random(n=5, seed=1, **scene), jam.errors.UnsupportedError, few.format(axes), strain=strain)
+        all_ = "strain is 7, which frees the volume.* a maximum of radii takes none, edges"
+        self.refused(jam.System.random(n=5, dim=2), jam.errors.ArgumentError, all_, strain="all")
+
 
 class Stops(unittest.TestCase):
     def stopped(self, reason, status, **options):
@@ -277,6 +167,21 @@ class Stops(unittest.TestCase):
         self.stopped("STEPS", "limit", max_steps=3)
         self.stopped("WALL_TIME", "limit", wall_time=1e-9)
         self.stopped("CANCELLED", "cancelled", progress=lambda p: True)
+
+    def test_moments_and_volume_are_kept_and_walls_not_crossed(self):
+        sizes = np.random.default_rng(2).uniform(0.6, 1.4, 30)
+        for scene, options in (
+            ({"diameters": sizes}, {"moments": (1, 2, 3), "max_steps": 7}), ({"n": 12}, {"strain": "free", "max_steps": 12}),
+            ({"n": 9, "container": "ball"}, {"max_steps": 4}), ({"n": 9, "container": "ball"}, {"max_steps": 15}),
+        ):
+            s = jam.System.random(dim=2, seed=2, **scene)
+            before, report = s.diameters / 2, s.maximise_radii(**options)
+            self.assertFalse(report.maximum)
+            self.assertGreater(least_exact_gap(s), 0)
+            for q in options.get("moments", ()):
+                self.assertLess(abs(((s.diameters / 2) ** q).sum() / (before**q).sum() / report.value**q - 1), 1e-14)
+            self.assertLess(abs(np.linalg.det(s.cell) - 1), 1e-14)
+            self.assertEqual("strain" in options, abs(s.cell - np.eye(2)).max() > 1e-6)
 
 
 class Search(unittest.TestCase):
@@ -351,4 +256,7 @@ class Proof(unittest.TestCase):
         s.maximise_radii()
         with self.assertRaisesRegex(wrong, "may pull"):  # no maximum of another sum
             jam.radii.prove(s, weights=[1, 1e-3, 1e-3])
-
+        s = jam.System.random(n=5, dim=2, seed=3)
+        s.maximise_radii(strain="free")
+        with self.assertRaisesRegex(wrong, "a maximum of a free cell has 2 contacts more than a fixed cell has unknowns"):
+            jam.radii.prove(s)

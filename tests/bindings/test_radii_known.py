@@ -1,0 +1,200 @@
+"""Largest sums of radii and factors of moments that are known: closed values, lattices, and what other optimisers find."""
+import unittest
+from fractions import Fraction
+
+import jam
+import numpy as np
+from radii_oracle import Programme, least_exact_gap
+from scipy.optimize import minimize
+
+SQUARE, CUBE = {"dim": 2, "walls": "xy"}, {"dim": 3, "walls": "xyz"}
+CIRCLE, BALL, TUBE = {"dim": 2, "container": "ball"}, {"dim": 3, "container": "ball"}, {"dim": 3, "container": "cylinder"}
+TWO = 2 - 2**0.5  # of two disks in a square
+
+
+def mixture(n, dim, walls="", seed=1):
+    sizes = np.random.default_rng(seed).uniform(0.6, 1.4, n)
+    return jam.System.random(n=n, dim=dim, seed=seed, diameters=sizes, **({"walls": walls} if walls else {}))
+
+
+class Sums(unittest.TestCase):
+    def test_sums_that_are_algebraic(self):
+        """Also of one disk that touches its images. Two spheres share a diameter; three equal disks touch each other and the circle."""
+        for n, scene, value in (
+            (1, SQUARE, 0.5), (2, SQUARE, TWO), (1, CUBE, 0.5), (2, CUBE, 3**0.5 / (1 + 3**0.5)), (2, CIRCLE, 0.5), (2, BALL, 0.5),
+            (3, CIRCLE, 1.5 / (1 + 2 / 3**0.5)), (1, {"dim": 2, "cell": [[1.0, 0.0], [0.25, 2.0]]}, 0.5),
+            (2, {**SQUARE, "box": 1e-6}, TWO * 1e-6), (2, {**SQUARE, "box": 3e4}, TWO * 3e4),
+        ):
+            for seed in (1, 2):
+                report = jam.System.random(n=n, seed=seed, **scene).maximise_radii()
+                self.assertTrue(report.maximum, scene)
+                self.assertLess(abs(report.value / value - 1), 3e-14, scene)
+
+    def test_a_sphere_that_fills_the_wall_is_named(self):
+        for scene in (CIRCLE, BALL, TUBE, {**TUBE, "walls": "z"}):
+            s = jam.System.random(n=1, seed=1, **scene)
+            report = s.maximise_radii()
+            self.assertEqual((report.maximum, s.calls[-1]["status"]), (False, "not_converged"))
+            self.assertLess(abs(report.value - 0.5), 1e-12)
+            self.assertGreaterEqual(least_exact_gap(s), 0)
+
+    def test_a_symmetric_saddle_is_left(self):
+        """In a row on a diameter forces balance, and no disk can grow; off the line their sum can."""
+        for n, scene, least in ((2, {"walls": "xy"}, TWO - 1e-14), (4, {"container": "ball"}, 0.6)):
+            x = np.c_[(np.arange(n) + 0.5) / n, np.full(n, 0.5)]
+            report = jam.System.from_arrays(x, radii=0.5 / n, box=1.0, **scene).maximise_radii()
+            self.assertTrue(report.maximum)
+            self.assertGreater(report.saddles, 0)
+            self.assertGreater(report.value, least)
+
+    def test_no_other_method_finds_more(self):
+        rng = np.random.default_rng(2)
+        can = {**TUBE, "walls": "z"}
+        for n, scene, edges, flat, axes in (
+            (3, SQUARE, [1, 1], "xy", 0), (4, SQUARE, [1, 1], "xy", 0), (3, CIRCLE, [1, 1], "", 2), (5, CIRCLE, [1, 1], "", 2),
+            (3, BALL, [1, 1, 1], "", 3), (4, BALL, [1, 1, 1], "", 3), (3, can, [1, 1, 1.3], "z", 2), (3, TUBE, [1, 1, 1.1], "", 2),
+        ):
+            ends = [jam.System.random(n=n, seed=seed, box=edges, **scene).maximise_radii() for seed in range(1, 13)]
+            by = Programme(n, edges, flat, axes)
+            most = max(by.sum_from(rng.uniform(0.2, 0.8, (n, len(edges))) * edges, 0.01 * np.ones(n))[0] for _ in range(12))
+            self.assertLess(abs(max(r.value for r in ends if r.maximum) - most), 1e-8, (scene, n))
+
+
+class FreeCell(unittest.TestCase):
+    def test_one_sphere_finds_the_densest_lattice(self):
+        for dim, radius, contacts in ((2, (1 / (2 * 3**0.5)) ** 0.5, 3), (3, 2 ** (-5 / 6), 6), (4, 2**-0.75, 12)):
+            for cell in (np.eye(dim), np.diag([2.0] + [2.0 ** (-1 / (dim - 1))] * (dim - 1)), np.eye(dim) + 0.3 * np.tri(dim, k=-1)):
+                s = jam.System.random(n=1, dim=dim, seed=1, cell=cell)
+                report = s.maximise_radii(strain="free")
+                self.assertTrue(report.maximum, (dim, report))
+                self.assertLess(abs(report.value - radius), 1e-14)
+                self.assertEqual(report.contacts, contacts)
+                self.assertEqual(s.report.strictly_jammed.name, "YES")
+                if dim == 4:
+                    break
+
+    def test_edges_alone_keep_right_angles_and_tilts_alone_edges(self):
+        """The tilt of a cell of edges 1 that makes both lattice vectors and their difference widest is 1 / 2."""
+        for dim, strain in ((2, "edges"), (3, "edges"), (2, "tilts")):
+            s = jam.System.random(n=1, dim=dim, seed=1, cell=np.diag([1.7, 1 / 1.7, 1.0][:dim]) if strain == "edges" else np.eye(dim))
+            report = s.maximise_radii(strain=strain)
+            self.assertTrue(report.maximum)
+            self.assertLess(abs(report.value - 0.5), 1e-14)
+            np.testing.assert_allclose(np.diag(s.cell), 1, atol=1e-14)
+            self.assertTrue(strain == "tilts" or not (s.cell - np.diag(np.diag(s.cell))).any())
+
+    def test_few_disks_find_the_triangular_lattice(self):
+        for n in (2, 3, 4, 7, 8):
+            most = max(jam.System.random(n=n, dim=2, seed=k).maximise_radii(strain="free").value for k in range(1, 4))
+            self.assertLess(abs(most - (n / 12**0.5) ** 0.5), 1e-14 * n)
+
+    def test_no_other_method_finds_a_larger_sum_of_two_disks(self):
+        """Sequential quadratic programming over the cell, one position and two radii, from random starts."""
+        def gaps(u):
+            a, b, x, y, first, second = u
+            cell, out = np.array([[a, 0.0], [b, 1.0 / a]]), [first, second]
+            for k in np.ndindex(5, 5):
+                m = np.array(k) - 2
+                out.append(np.linalg.norm([x, y] + m @ cell) - first - second)
+                if m.any():
+                    out += [np.linalg.norm(m @ cell) - 2 * first, np.linalg.norm(m @ cell) - 2 * second]
+            return np.array(out)
+
+        rng, most = np.random.default_rng(1), 0.0
+        for _ in range(40):
+            start = np.r_[rng.uniform(0.7, 1.4), rng.uniform(-0.5, 0.5), rng.uniform(0, 1, 2), 0.01, 0.01]
+            made = minimize(lambda u: -u[4] - u[5], start, constraints={"type": "ineq", "fun": gaps}, method="SLSQP")
+            if gaps(made.x).min() > -1e-9:
+                most = max(most, -made.fun)
+        found = max(jam.System.random(n=2, dim=2, seed=k).maximise_radii(strain="free").value for k in range(1, 9))
+        self.assertLess(abs(found - most), 1e-6)
+
+
+class Moments(unittest.TestCase):
+    def test_as_many_moments_as_spheres_are_a_crunch(self):
+        s = jam.System.random(n=3, dim=2, walls="xy", seed=5, diameters=[0.7, 1.0, 1.3])  # roots that are far apart
+        before = s.diameters.copy()
+        report = s.maximise_radii(moments=(1, 2, 3))
+        np.testing.assert_allclose(s.diameters / before, report.value, rtol=1e-13)
+        crunched = s.copy().crunch()
+        self.assertTrue(crunched.jammed)
+        self.assertLess(abs(crunched.packing_fraction / report.packing_fraction - 1), 1e-12)
+
+    def test_the_first_moment_alone_is_the_sum(self):
+        by_sum, by_moment = (jam.System.random(n=12, seed=4, **SQUARE) for _ in range(2))
+        before = by_sum.diameters.sum() / 2
+        by_sum.maximise_radii()
+        self.assertLess(abs(by_moment.maximise_radii(moments=[1]).value * before / by_sum.diameters.sum() * 2 - 1), 1e-13)
+
+    def test_no_other_method_finds_more_nearby(self):
+        """Sequential quadratic programming from the end moved a little: positions, radii, ln lambda."""
+        n, by = 4, Programme(4, [1, 1], "xy")
+        s = mixture(n, 2, "xy", 3)
+        before = s.diameters / 2
+        report = s.maximise_radii(moments=(1, 2))
+
+        def kept(v):
+            radii = v[:-1].reshape(n, 3)[:, 2]
+            return [np.log((radii**q).sum() / (before**q).sum()) / q - v[-1] for q in (1, 2)]
+
+        end = np.append(np.c_[s.positions, s.diameters / 2].ravel(), np.log(report.value))
+        rng, most = np.random.default_rng(2), 0.0
+        rules = [{"type": "ineq", "fun": lambda v: by.gaps(v[:-1])}, {"type": "eq", "fun": kept}]
+        for _ in range(10):
+            made = minimize(lambda v: -v[-1], end + 0.01 * rng.normal(size=end.size), constraints=rules, method="SLSQP")
+            if made.success and by.gaps(made.x[:-1]).min() > -1e-9 and abs(made.x - end).max() < 0.03:
+                most = max(most, made.x[-1])
+        self.assertLess(abs(most - end[-1]), 1e-6)
+
+    def test_moments_are_exact_where_they_change_by_much(self):
+        """Sums of negative powers fall to 1e-7 of those at the start; the fractions are exact."""
+        s = jam.System.random(n=2, dim=2, walls="xy", seed=1, diameters=[1, 3.0], packing_fraction=0.01)
+        before = s.diameters / 2
+        report = s.maximise_radii(moments=(-6,))
+        moment = [sum(Fraction(r) ** -6 for r in radii) for radii in (before, s.diameters / 2)]
+        self.assertAlmostEqual(float(moment[1] / moment[0] * Fraction(report.value) ** 6 - 1), 0, 13)
+
+    def test_numbering_and_units_do_not_matter(self):
+        n, exponents = 10, (1, 2, 3)
+        s = mixture(n, 2, "xy", 7)
+        x, d = s.positions.copy(), s.diameters.copy()
+        value = s.maximise_radii(moments=exponents).value
+        order = np.random.default_rng(1).permutation(n)
+        other = jam.System.from_arrays(x[order], diameters=d[order], box=1.0, walls="xy")
+        self.assertLess(abs(other.maximise_radii(moments=exponents).value / value - 1), 1e-12)
+        np.testing.assert_allclose(other.diameters, s.diameters[order], rtol=1e-9)
+        for unit in (1e-6, 300.0):
+            other = jam.System.from_arrays(unit * x, diameters=unit * d, box=unit, walls="xy")
+            self.assertLess(abs(other.maximise_radii(moments=exponents).value / value - 1), 1e-12)
+
+    def test_a_bound_that_must_stop_a_radius(self):
+        """Two disks keep R_1 + R_2 = 2 - sqrt(2), and a sum of cubes on that line is largest at its ends."""
+        most = 0.4
+        for seed in (1, 2, 3):
+            s = mixture(2, 2, "xy", seed)
+            before = (s.diameters**3).sum() / 8
+            report = s.maximise_radii(moments=(3,), radius_max=most)
+            self.assertEqual((report.maximum, report.at_bounds), (True, 1))
+            self.assertLessEqual(s.diameters.max() / 2, most)
+            self.assertLess(most - s.diameters.max() / 2, 1e-15)
+            self.assertLess(abs(report.value - ((most**3 + (TWO - most) ** 3) / before) ** (1 / 3)), 1e-14)
+
+    def test_equal_disks_with_one_moment(self):
+        """On that line a sum of powers above 1 is least where radii are equal, one of powers below 1 largest."""
+        for q, radii in ((2, (1.5 - 2**0.5, 0.5)), (3, (1.5 - 2**0.5, 0.5)), (0.5, [1 - 0.5**0.5] * 2), (-1, [1 - 0.5**0.5] * 2)):
+            s = jam.System.from_arrays([[0.3, 0.3], [0.7, 0.7]], radii=0.2, box=1.0, walls="xy")
+            self.assertTrue(s.maximise_radii(moments=(q,)).maximum)
+            self.assertLess(abs(np.sort(s.diameters / 2) - radii).max(), 1e-7)
+
+    def test_bounds_are_kept_and_counted(self):
+        for seed in (1, 4):
+            free, s = mixture(30, 2, "", seed), mixture(30, 2, "", seed)
+            before = s.diameters / 2
+            free.maximise_radii(moments=(1, 2))
+            most = 0.97 * free.diameters.max() / 2
+            report = s.maximise_radii(moments=(1, 2), radius_max=most)
+            self.assertTrue(report.maximum)
+            self.assertEqual(int(np.sum(abs(s.diameters / 2 - most) < 1e-14)), report.at_bounds)
+            self.assertLessEqual(s.diameters.max() / 2, most)
+            for q in (1, 2):
+                self.assertLess(abs(((s.diameters / 2) ** q).sum() / (before**q).sum() / report.value**q - 1), 1e-14)

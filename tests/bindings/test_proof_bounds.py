@@ -16,7 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from test_proof import CHECKER, File, file_of, moved, new_large_sphere, packing, scene_of, value, verdict, word
+from proof_files import CHECKER, File, file_of, moved, scene_of, value, verdict, word
+from test_proof import new_large_sphere, packing
 
 FAR = Fraction(1, 10**6)
 NUMBERS = itertools.count()
@@ -62,8 +63,8 @@ def overlap():
 def overlap_across_the_boundary():
     """A small sphere at a wall of the cell, one whose centre is its image, but for a hundredth, at the other."""
     f = small()
-    stable = next(s for s in f.spheres if s[1] == "1")
-    side = value(next(line for line in f.lines if line[0] == "cell")[1])
+    stable = f.stable[0]
+    side = value(f.header("cell")[1])
     f.lines.append(["sphere", "0", word(Fraction(1, 100)), word(value(stable[3]) + side), *stable[4:]])
     return f.text()
 
@@ -73,7 +74,7 @@ def gap_below_the_radius():
     intact, generator = checker(), random.Random(3)
     for _ in range(100):
         f = small()
-        stable = generator.choice([s for s in f.spheres if s[1] == "1"])
+        stable = generator.choice(f.stable)
         grain = Fraction(1, 1000)
         gamma = Fraction(float(value(f.gamma[1])) ** 0.5)
         direction = np.array([generator.gauss(0, 1) for _ in range(3)])

@@ -11,7 +11,8 @@ import unittest
 import numpy as np
 import test_proof_round
 from compiled import compiled
-from test_proof import ROOT, file_of, jamproof, packing
+from proof_files import ROOT, file_of, jamproof
+from test_proof import packing
 from test_proof_bounds import fcc, square_lattice
 from test_proof_checker import flower
 from test_proof_strict import angles_of_tiles_in_a_free_cell, packed
@@ -51,54 +52,27 @@ def without_delta(answer):
     return status, re.sub("(delta|left|4 a0 a2|4 beta eta|inner|outer|radius|gamma_error|force_error) [0-9.e+-]+", r"\1", text), summary
 
 
-def one_digit(words, r):
-    at = r.randrange(1, len(words))
-    spots = [k for k, c in enumerate(words[at]) if c.isdigit()]
-    if spots:
-        k = r.choice(spots)
-        words[at] = words[at][:k] + r.choice("0123456789") + words[at][k + 1 :]
-
-
-def exponent(words, r):
-    at = r.randrange(1, len(words))
-    words[at] = re.sub("p(-?[0-9]+)", lambda m: f"p{int(m[1]) + r.choice((-1, 1, 3))}", words[at])
-
-
-def sign(words, r):
-    at = r.randrange(1, len(words))
-    words[at] = words[at][1:] if words[at].startswith("-") else "-" + words[at]
-
-
-def swap(words, r):
-    a, b = r.randrange(1, len(words)), r.randrange(1, len(words))
-    words[a], words[b] = words[b], words[a]
-
-
-def shorter(words, r):
-    del words[r.randrange(len(words))]
-
-
-def odd(words, r):
-    words[r.randrange(len(words))] = r.choice(["1", "+1", "01", "x", "1p", "p2", "0p0", "1p-30", "7p2,", "1p20000", "\u00e9"])
-
-
-def coarse(words, r):
-    """Sixteen digits instead of thirty-two."""
-    words[1:] = [word.split(",")[0] for word in words[1:]]
-
-
 def mutant(text, r):
-    lines, change = text.splitlines(), r.randrange(9)
+    """One line of a file changed: a digit, an exponent, a word, the order of two, a word less, half of the digits; a line less or twice."""
+    lines = text.splitlines()
     of = [k for k, line in enumerate(lines) if r.random() < 0.1 or not line.startswith(("sphere", "contact"))] or [1]
-    at = r.choice(of[1:] or of)
-    if change == 7:
-        del lines[at]
-    elif change == 8:
-        lines.insert(at, lines[at])
-    else:
-        words = lines[at].split(" ")
-        (one_digit, exponent, sign, swap, shorter, odd, coarse)[change](words, r) if len(words) > 1 else shorter(words, r)
-        lines[at] = " ".join(words)
+    at, change = r.choice(of[1:] or of), r.randrange(8)
+    words = lines[at].split(" ")
+    k = r.randrange(len(words))
+    if change == 0:
+        words[k] = re.sub("[0-9]", lambda m: r.choice("0123456789") if r.random() < 0.3 else m[0], words[k])
+    elif change == 1:
+        words[k] = re.sub("p(-?[0-9]+)", lambda m: f"p{int(m[1]) + r.choice((-1, 1, 3))}", words[k])
+    elif change == 2:
+        words[k] = r.choice(["1", "+1", "01", "x", "1p", "p2", "0p0", "1p-30", "7p2,", "1p20000", "\u00e9", "-" + words[k], words[k][1:]])
+    elif change == 3:
+        other = r.randrange(len(words))
+        words[k], words[other] = words[other], words[k]
+    elif change == 4:
+        del words[k]
+    elif change == 5:  # sixteen digits instead of thirty-two
+        words[1:] = [word.split(",")[0] for word in words[1:]]
+    lines[at : at + 1] = [] if change == 6 else [" ".join(words)] * (2 if change == 7 else 1)
     return "\n".join(lines) + "\n"
 
 

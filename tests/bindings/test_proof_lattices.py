@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 
 import jam
-from test_proof import verdict
+from proof_files import verdict
 from test_proof_bounds import crystal
 
 HALF, QUARTER = Fraction(1, 2), Fraction(1, 4)

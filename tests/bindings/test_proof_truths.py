@@ -6,12 +6,14 @@ import sys
 import tempfile
 import unittest
 from fractions import Fraction
+from pathlib import Path
 
 import h5py
 import numpy as np
 
 import jam
-from test_proof import File, agree, file_of, packing, refined_squares, verdict
+from proof_files import File, agree, file_of, try_changes, verdict
+from test_proof import packing, refined_squares
 
 KERNELS = ("Prescott", "Nehalem", "Sandybridge", "Haswell")
 PROVE = """
@@ -67,17 +69,6 @@ class KnownNumbers(unittest.TestCase):
         self.assertLess(proof.inner, 1e-28)
         self.assertLess(abs(Fraction(proof.gamma) + Fraction(proof.gamma_low) - Fraction(1, 5)), Fraction(1, 10**31))
         self.assertEqual(verdict(file_of(system)), "excess")
-
-    def test_two_spheres_in_a_cell(self):
-        """Body-centred: Gamma = 3 / 4; in d = 2 1 / 2. All numbers are binary fractions."""
-        for dim in (2, 3):
-            places = np.array([[0.0] * dim, [0.5] * dim])
-            system = jam.System.from_arrays(places, 0.5 * dim**0.5 * (1 - 1e-16))
-            system.contacts_from_geometry()
-            proof = system.prove()
-            if proof.theorem == jam.Theorem.EXACT:
-                self.assertEqual((proof.gamma, proof.gamma_low, proof.radius), (dim / 4.0, 0.0, 0.0))
-            self.assertEqual(proof.theorem, jam.Theorem.EXACT)
 
     def test_kernels_and_threads_give_one_proof_or_enclosures_that_overlap(self):
         """The products of libjam itself: one proof, bit for bit. Those of OpenBLAS (JAM_BLAS): proofs of one packing."""
@@ -141,36 +132,26 @@ class ImpliedContacts(unittest.TestCase):
     def test_what_no_walk_implies_is_refused(self):
         for system, ratio in self.found:
             text = file_of(system, ratio)
-            lines = [line.split() for line in text.splitlines()]
-            tile = next(k for k, line in enumerate(lines) if line[0] == "tile")
-            implied = next(k for k, line in enumerate(lines) if line[0] == "implied")
-            named = {line[1] for line in lines if line[0] == "implied"}
-            other = next(str(c) for c in range(len(system.contacts.pairs)) if str(c) not in named | set(lines[implied]))
+            f = File(text)
+            implied = f.header("implied")
+            named = {line[1] for line in f.of("implied")}
+            other = next(str(c) for c in range(len(system.contacts.pairs)) if str(c) not in named | set(implied))
 
-            def changed(edit):
-                copy = [list(line) for line in lines]
-                edit(copy)
-                return verdict("\n".join(" ".join(line) for line in copy) + "\n")
+            def without(*names):
+                return lambda f, r: f.lines.__setitem__(slice(None), [line for line in f.lines if line[0] not in names])
 
-            def replace(k, at, word):
-                return lambda copy: copy[k].__setitem__(at, word)
+            def replace(name, at, word):
+                return lambda f, r: f.header(name).__setitem__(at, word)
 
-            edits = {
-                "no word of implied contacts": lambda copy: copy.__delitem__(slice(tile, len(copy))),
-                "no tiles": lambda copy: copy.__setitem__(
-                    slice(None), [line for line in copy if line[0] != "tile"]
-                ),
-                "another contact called implied": replace(implied, 1, other),
-                "the walk over another contact": replace(implied, 2, other),
-                "a tile with another contact": replace(tile, 1, other),
-                "a tile that rests on the implied one": replace(tile, 1, lines[implied][1]),
-                "a force of a kept contact negated": lambda copy: next(
-                    line for line in copy if line[0] == "contact"
-                ).__setitem__(5, "-1p-10"),
-            }
-            for name, edit in edits.items():
-                with self.subTest(kind=name):
-                    self.assertNotIsInstance(changed(edit), dict)
+            try_changes(self, text, {
+                "no word of implied contacts": without("tile", "implied"),
+                "no tiles": without("tile"),
+                "another contact called implied": replace("implied", 1, other),
+                "the walk over another contact": replace("implied", 2, other),
+                "a tile with another contact": replace("tile", 1, other),
+                "a tile that rests on the implied one": replace("tile", 1, implied[1]),
+                "a force of a kept contact negated": replace("contact", 5, "-1p-10"),
+            }, None)  # fmt: skip
 
 
 PACK = os.environ.get("JAM_PACK")
@@ -179,35 +160,26 @@ PACK = os.environ.get("JAM_PACK")
 @unittest.skipUnless(PACK, "jam-pack is not built")
 class Program(unittest.TestCase):
     def test_what_was_proved_is_shown(self):
-        """By jam-pack and python3 -m jam alike: summary, report, page, proof file; then of the file as it is."""
-        programs = [PACK], [sys.executable, "-m", "jam"]
+        """Of a packing that is made: summary, report, page, proof file. Of a file: by jam-pack and python3 -m jam alike."""
         with tempfile.TemporaryDirectory() as folder:
-            names = {k: f"{folder}/a.{k}" for k in ("xyz", "json", "html", "jamproof")}
-            wanted = ["--n", "48", "--seed", "2", "--prove", "--output", names["xyz"], "--report", names["json"]]
-            wanted += ["--page", names["html"], "--proof", names["jamproof"]]
-            for program in programs:
-                done = subprocess.run(program + wanted, capture_output=True, text=True, timeout=120)
+            xyz, report, page, proof = (Path(folder, "a." + kind) for kind in ("xyz", "json", "html", "jamproof"))
+
+            def run(*words):
+                proof.unlink(missing_ok=True)
+                done = subprocess.run([*map(str, words), "--prove", "--proof", str(proof)], capture_output=True, text=True, timeout=120)
                 self.assertEqual(done.returncode, 0, done.stderr)
-                with open(names["json"], encoding="utf-8") as file:
-                    report = json.load(file)
-                self.assertRegex(report["proof"], r"^proved, radius \d")
-                self.assertLess(report["proof_radius"], 1e-28)
-                with open(names["html"], encoding="utf-8") as file:
-                    self.assertIn(f'"proof": "{report["proof"]}"', file.read())
-                with open(names["jamproof"], encoding="ascii") as file:
-                    self.assertIsInstance(verdict(file.read()), dict)
-                self.assertRegex(done.stdout, r"proof +proved, radius")
-            said = []
-            for program in programs:
-                os.remove(names["jamproof"])
-                words = ["check", names["xyz"], "--prove", "--proof", names["jamproof"]]
-                done = subprocess.run(program + words, capture_output=True, text=True, timeout=120)
-                self.assertEqual(done.returncode, 0, done.stderr)
-                said.append(done.stdout)
-                with open(names["jamproof"], encoding="ascii") as file:
-                    self.assertIsInstance(verdict(file.read()), dict)
-            self.assertIn("proved, radius", said[0])
-            self.assertEqual(said[0], said[1])
+                self.assertIsInstance(verdict(proof.read_text(encoding="ascii")), dict)
+                return done.stdout
+
+            made = run(PACK, "--n", 48, "--seed", 2, "--output", xyz, "--report", report, "--page", page)
+            told = json.loads(report.read_text(encoding="utf-8"))
+            self.assertRegex(told["proof"], r"^proved, radius \d")
+            self.assertLess(told["proof_radius"], 1e-28)
+            self.assertIn(f'"proof": "{told["proof"]}"', page.read_text(encoding="utf-8"))
+            self.assertRegex(made, r"proof +proved, radius")
+            said = run(PACK, "check", xyz)
+            self.assertIn("proved, radius", said)
+            self.assertEqual(run(sys.executable, "-m", "jam", "check", xyz), said)
 
 
 class Files(unittest.TestCase):

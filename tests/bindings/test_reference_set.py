@@ -13,7 +13,7 @@ import numpy as np
 
 import jam
 from compiled import compiled
-from test_proof import ROOT, jamproof
+from proof_files import ROOT, jamproof
 
 FOLDER = ROOT / "examples/studies/reference_set"
 # pi^k over the denominator: the volume of a ball of diameter 1

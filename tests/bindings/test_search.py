@@ -12,7 +12,7 @@ import jam.radii
 import numpy as np
 from jam import _search as search
 from test_command_line import OUTPUT, REFUSED, USAGE, in_process
-from test_proof import ROOT
+from proof_files import ROOT
 
 
 class Search(unittest.TestCase):

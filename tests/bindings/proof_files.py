@@ -1,0 +1,163 @@
+"""Proof files as tests change them: their lines, what the checker says of them, and changes that must lose the proof."""
+import pathlib
+import sys
+import tempfile
+from fractions import Fraction
+
+import jam
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+CHECKER = ROOT / "bindings/proof/jamproof.py"
+sys.path.insert(0, str(CHECKER.parent))
+import jamproof  # noqa: E402
+
+
+def file_of(system, ratio=None, **options):
+    with tempfile.TemporaryDirectory() as folder:
+        path = folder + "/a.jamproof"
+        system.write_proof(path, ratio, **options)
+        return pathlib.Path(path).read_text(encoding="ascii")
+
+
+def scene_of(text, program=jamproof):
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "a.jamproof"
+        path.write_text(text, encoding="ascii")
+        return program.Scene(path)
+
+
+def verdict(text, program=jamproof):
+    """What the checker proves of a text, or the first word of its refusal."""
+    try:
+        scene = scene_of(text, program)
+    except (ValueError, LookupError, TypeError, OverflowError, MemoryError):
+        return "unreadable"
+    try:
+        return program.check(scene)
+    except (program.Refused, OverflowError, ZeroDivisionError) as why:
+        return str(why).split(":")[0]
+
+
+def agree(case, proof, found, radius=1e-28):
+    """Library and checker prove one packing. Each bounds a distance, in the 2-norm and the largest norm: neither may be below what the other knows."""
+    case.assertEqual(proof.theorem, jam.Theorem.EXACT, proof)
+    case.assertIsInstance(found, dict, found)
+    case.assertLess(max(proof.radius, found["radius"]), radius)
+    case.assertAlmostEqual(proof.least_force / found["least_force"], 1.0, delta=1e-6)
+    case.assertAlmostEqual(min(proof.least_gap, 1e-3), min(found["least_gap"], 1e-3), delta=1e-9)
+
+
+def word(value, exponent=-140):
+    """A number of a proof file: value rounded to 2^exponent."""
+    return f"{round(Fraction(value) / Fraction(2) ** exponent)}p{exponent}"
+
+
+def value(text):
+    return jamproof.number(text)
+
+
+class File:
+    """The lines of a proof file, to be changed."""
+
+    def __init__(self, text):
+        self.lines = [line.split() for line in text.splitlines()]
+        self.spheres, self.contacts, self.at_walls = map(self.of, ("sphere", "contact", "wall"))
+        self.stable = [line for line in self.spheres if line[1] == "1"]
+        self.gamma = next(line for line in self.lines if line[0] in ("gamma", "growth"))
+
+    def of(self, name):
+        return [line for line in self.lines if line[0] == name]
+
+    def header(self, name):
+        return self.of(name)[0]
+
+    def text(self):
+        return "\n".join(" ".join(line) for line in self.lines) + "\n"
+
+    def scale(self, line, at, factor):
+        line[at] = word(value(line[at]) * Fraction(factor))
+
+    def shift(self, line, at, by):
+        line[at] = word(value(line[at]) + Fraction(by))
+
+
+# Each is a change(file, random).
+def dropped(name):
+    return lambda f, r: f.lines.remove(r.choice(f.of(name)))
+
+
+def doubled(name):
+    return lambda f, r: f.lines.append(list(r.choice(f.of(name))))
+
+
+def force_times(factor, name):
+    return lambda f, r: f.scale(r.choice(f.of(name)), -1, factor)
+
+
+def moved(by):
+    return lambda f, r: f.shift(r.choice(f.stable), 3 + r.randrange(len(f.spheres[0]) - 3), by)
+
+
+def resized(by):
+    return lambda f, r: f.scale(r.choice(f.stable), 2, 1 + by)
+
+
+def wide_cell(by):
+    return lambda f, r: f.scale(f.header("cell"), 1, 1 + by)
+
+
+def centres_exchanged(f, r):
+    a, b = r.sample(f.stable, 2)
+    a[3:], b[3:] = b[3:], a[3:]
+
+
+def rattler_into_neighbour(f, r):
+    """A rattler put where it overlaps, or a new sphere where there is none."""
+    stable = r.choice(f.stable)
+    rattlers = [s for s in f.spheres if s[1] == "0"]
+    if rattlers:
+        r.choice(rattlers)[3:] = stable[3:]
+    else:
+        f.lines.append(["sphere", "0", stable[2], *stable[3:]])
+
+
+def other_image(f, r):
+    line = r.choice(f.contacts)
+    line[3] = str(int(line[3]) + r.choice((-1, 1)))
+
+
+def another_wall(f, r):
+    line = r.choice(f.at_walls)
+    line[2] = r.choice([str(c) for c in range(len(f.spheres[0]) - 3) if str(c) != line[2]])
+
+
+def other_side(f, r):
+    line = r.choice(f.at_walls)
+    line[3] = str(1 - int(line[3]))
+
+
+def half_force(f, r):
+    """A hint: what balances is computed, and lies farther away than the bound of these forces."""
+    for line in f.at_walls:
+        f.scale(line, -1, Fraction(1, 2))
+
+
+#: Of contacts with flat and round walls
+AT_WALLS = {
+    "wall missing": dropped("wall"), "wall twice": doubled("wall"), "pull": force_times(-1, "wall"), "no force": force_times(0, "wall"),
+    "half the force": half_force,
+}  # fmt: skip
+
+
+def try_changes(case, text, kinds, generator, **scene):
+    """Each kind changes a file of its own: no proof, or, of a kind (change, by how much), one whose radius covers the change."""
+    for kind, change in kinds.items():
+        with case.subTest(kind=kind, **scene):
+            change, away = change if isinstance(change, tuple) else (change, None)
+            f = File(text)
+            change(f, generator)
+            found = verdict(f.text())
+            if away is None and f.text() != text:
+                case.assertNotIsInstance(found, dict, found)
+            elif isinstance(found, dict):
+                case.assertGreaterEqual(found["radius"], 0.5 * (away or 0.0))

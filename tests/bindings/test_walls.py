@@ -40,14 +40,6 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "give walls= to System.random"):
             jam.sizes("equal", 10, walls="z")
 
-    def test_volume_is_that_of_the_container(self):
-        for container, dim, share in (("ball", 3, np.pi / 6), ("ball", 2, np.pi / 4), ("cylinder", 3, np.pi / 4)):
-            s = jam.System.random(n=20, dim=dim, packing_fraction=0.1, box=2, container=container)
-            self.assertAlmostEqual(s.info.volume, share * 2**dim, 12)
-            self.assertAlmostEqual(s.packing_fraction, 0.1, 12)
-            inside = np.hypot.reduce(s.positions[:, : 2 if container == "cylinder" else dim] - 1, axis=1) + s.diameters / 2
-            self.assertLess(inside.max(), 1)
-
 
 class Scenes(unittest.TestCase):
     def test_walls_give_pressure_and_gap(self):

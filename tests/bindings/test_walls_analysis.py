@@ -8,7 +8,7 @@ from pathlib import Path
 import jam
 import numpy as np
 from scipy.optimize import linprog
-from test_walls_jammed import SCENES, start
+from wall_scenes import SCENES, start
 
 
 def strict_rows(s, opening):
@@ -110,19 +110,6 @@ class Structure(unittest.TestCase):
             if len(angle):
                 self.assertAlmostEqual(abs(np.exp(6j * angle).mean()), q[i], 9)
 
-    def test_profile_counts_what_stands_in_the_slit(self):
-        s = start("slit", 40, 4)
-        s.crunch()
-        p = s.solid_profile(2, 13)
-        z, a = s.positions[:, 2], s.diameters / 2
-
-        def below(t):  # volume of spheres below z = t
-            h = np.clip(t - z + a, 0, 2 * a)
-            return (np.pi * h**2 * (a - h / 3)).sum()
-
-        expected = [(below(high) - below(low)) / (high - low) for low, high in zip(p.low, p.high)]
-        np.testing.assert_allclose(p.solid, np.array(expected) / np.prod(np.diag(s.cell)[:2]), rtol=1e-9)
-
 
 class Slides(unittest.TestCase):
     def test_disks_around_a_disk_in_the_middle_slide(self):
@@ -204,20 +191,6 @@ class Slides(unittest.TestCase):
 
 
 class Files(unittest.TestCase):
-    def test_formats_name_the_container_and_read_it(self):
-        for name in SCENES:
-            s = start(name, 25, 2)
-            s.crunch()
-            with tempfile.TemporaryDirectory() as folder:
-                for file in ("a.data", "a.xyz", "a.lmp.gz"):
-                    s.write(Path(folder, file))
-                    back = jam.System.read(Path(folder, file))
-                    self.assertEqual((back.info.container, back.info.walls, back.dim), (s.info.container, s.info.walls, s.dim), (name, file))
-                    np.testing.assert_array_equal(back.positions, s.positions)
-                    self.assertEqual(back.check().jammed, s.check().jammed)
-                with self.assertRaisesRegex(jam.errors.UnsupportedError, "plain text cannot store walls"):
-                    s.write(Path(folder, "a.dat"))
-                self.assertFalse(Path(folder, "a.dat").exists())
 
     def test_h5md_says_which_axes_repeat_and_comes_back(self):
         import h5py

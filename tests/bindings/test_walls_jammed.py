@@ -7,74 +7,16 @@ from math import pi, sin, sqrt
 
 import jam
 import numpy as np
-from jamming_oracle import support, vectors
+from jamming_oracle import support
+from wall_scenes import SCENES, all_gaps, away, largest_growth, start, wall_distances
 
-SCENES = {
-    "lines": {"dim": 2, "walls": "y", "cell": [2, 1]},
-    "strip": {"dim": 2, "walls": "y"},
-    "box": {"dim": 2, "walls": "xy"},
-    "circle": {"dim": 2, "container": "ball"},
-    "slit": {"walls": "z", "cell": [1, 1, 1.3]},
-    "brick": {"walls": "xyz"},
-    "tube": {"container": "cylinder", "cell": [1, 1, 1.5]},
-    "can": {"container": "cylinder", "walls": "z"},
-    "ball": {"container": "ball"},
-    "cone": {"container": "cone", "walls": "z"},
-}
 SYMMETRIES = {"lines": 1, "box": 0, "circle": 1, "slit": 2, "brick": 0, "tube": 2, "can": 1, "ball": 3, "cone": 1}
-
-
-def start(name, n, seed, phi=0.15, **more):
-    sizes = {"diameters": 0.5 + 0.6 * (0.618 * np.arange(n) % 1)} if more.pop("unequal", False) else {}
-    return jam.System.random(n=n, seed=seed, packing_fraction=phi, **sizes, **SCENES[name], **more)
-
-
-def wall_distances(name, x, edges):
-    """(n, walls) distances, (n, walls, d) directions away from each wall: flat ones axis by axis, then the round one."""
-    scene, d = SCENES[name], x.shape[1]
-    letters, kind = scene.get("walls", ""), scene.get("container")
-    distance, normal = [], []
-    for letter in letters:
-        c = "xyz".index(letter)
-        for side in (0, 1):
-            distance.append(edges[c] - x[:, c] if side else x[:, c])
-            normal.append(np.tile((1 - 2 * side) * np.eye(d)[c], (len(x), 1)))
-    if kind:
-        flat = x - edges / 2
-        flat[:, (d if kind == "ball" else 2) :] = 0
-        r = np.linalg.norm(flat, axis=1)
-        # Of a cone half as wide at the end of z, whose generators and axis enclose the angle a.
-        a = np.arctan(edges[0] / 4 / edges[-1]) if kind == "cone" else 0.0
-        distance.append(np.cos(a) * (edges[0] / 2 - r) - np.sin(a) * x[:, -1])
-        normal.append(-np.cos(a) * flat / np.maximum(r, 1e-300)[:, None] - np.sin(a) * np.eye(d)[-1])
-    return np.array(distance).T, np.array(normal).transpose(1, 0, 2)
-
-
-def open_cell(name, edges):
-    """Lattice vectors of the axes that repeat; far apart along walls."""
-    kind, letters, d = SCENES[name].get("container"), SCENES[name].get("walls", ""), len(edges)
-    closed = [("xyz"[c] in letters) or kind == "ball" or (kind in ("cylinder", "cone") and c < 2) for c in range(d)]
-    return np.diag(np.where(closed, 1e3, edges))
-
-
-def all_gaps(name, s):
-    """(h, i, j, n, distance) of all near pairs and walls."""
-    x, sigma, edges = s.positions, s.diameters, np.diag(s.cell)
-    found = []
-    for i, j, r in vectors(x, open_cell(name, edges), 1):
-        length = np.linalg.norm(r)
-        if i != j and length < 2 * sigma.max():
-            found.append((2 * length / (sigma[i] + sigma[j]) - 1, i, j, r / length, length))
-    distance, normal = wall_distances(name, x, edges)
-    for i, w in np.ndindex(distance.shape):
-        found.append((2 * distance[i, w] / sigma[i] - 1, i, -1 - w, normal[i, w], distance[i, w]))
-    return found
 
 
 def oracle(name, s, tolerance=1e-10):
     """Contacts with force, flexes beyond the symmetries of the scene, least curvature against them."""
     n, d = s.positions.shape
-    found = [g for g in all_gaps(name, s) if g[0] < tolerance]
+    found = [g for g in all_gaps(SCENES[name], s) if g[0] < tolerance]
     rows = np.zeros((len(found), n * d))
     for k, (_, i, j, u, _) in enumerate(found):
         rows[k, i * d : i * d + d] += u
@@ -92,16 +34,6 @@ def oracle(name, s, tolerance=1e-10):
             "force": force / force.mean(), "found": [found[k] for k in np.flatnonzero(on)]}
 
 
-def largest_growth(name, s, x):
-    """Factor by which the diameters may be multiplied with the spheres at x."""
-    edges, sigma = np.diag(s.cell), s.diameters
-    least = np.inf
-    for i, j, r in vectors(x, open_cell(name, edges), 1):
-        if i != j:
-            least = min(least, 2 * np.linalg.norm(r) / (sigma[i] + sigma[j]))
-    return min(least, (2 * wall_distances(name, x, edges)[0] / sigma[:, None]).min())
-
-
 class Verdicts(unittest.TestCase):
     def test_contacts_forces_and_rank_agree_with_another_arithmetic(self):
         for name, symmetries in SYMMETRIES.items():
@@ -111,7 +43,7 @@ class Verdicts(unittest.TestCase):
                     s = start(name, n, seed, unequal=True)
                     r = s.crunch()
                     self.assertTrue(r.jammed)
-                    gaps = np.array([g[0] for g in all_gaps(name, s)])
+                    gaps = np.array([g[0] for g in all_gaps(SCENES[name], s)])
                     self.assertGreater(gaps.min(), -1e-13)
                     told = oracle(name, s)
                     pairs = {tuple(p) for p in s.contacts.pairs}
@@ -124,8 +56,11 @@ class Verdicts(unittest.TestCase):
                     if told["states"] == 1:
                         by_pair = {p[1:3]: f for p, f in zip(told["found"], told["force"])}
                         np.testing.assert_allclose([by_pair[tuple(p)] for p in s.contacts.pairs], s.forces, atol=1e-8)
-                    np.testing.assert_array_equal(s.rigidity().jammed, 1)
-                    np.testing.assert_array_equal(s.check().jammed, 1)
+                    self.assertEqual((s.rigidity().jammed, s.check().jammed), (1, 1))
+                    ends = s.contacts.pairs
+                    np.testing.assert_array_equal(s.coordination, np.bincount(ends[ends >= 0], minlength=n))
+                    stable, own = s.coordination > 0, np.bincount(ends[ends[:, 1] >= 0].ravel(), minlength=n)
+                    np.testing.assert_array_equal(s.near_coordination(1e-9)[stable], own[stable])
 
     def test_one_period_between_walls_is_held_by_contacts_along_it(self):
         """Without these the cell can shorten. Check and strict test agree, in closed boxes too."""
@@ -185,7 +120,7 @@ class Verdicts(unittest.TestCase):
         # Two spheres opposite each other in a tube of width 1: d^2 = (L / 2)^2 + (1 - d)^2. A turn of one about the axis
         # opens their contacts by its square times 1 - d.
         random = np.random.default_rng(1)
-        for seed in range(20):
+        for seed in range(6):
             length = 2.0 - random.uniform(0.005, 0.2)
             tube = {"container": "cylinder", "cell": [1, 1, length]}
             s = jam.System.random(n=2, seed=seed, packing_fraction=0.12, **tube)
@@ -204,43 +139,6 @@ class Verdicts(unittest.TestCase):
                 self.assertFalse(report.jammed)
                 self.assertAlmostEqual(s.diameters[0], 1.0, delta=1e-7)
                 self.assertIn("fills the width of the container", str(report))
-
-    def test_no_motion_lets_the_diameters_grow(self):
-        random = np.random.default_rng(1)
-        for name in SCENES:
-            s = start(name, 8, 3, unequal=True)
-            self.assertTrue(s.crunch().jammed, name)
-            self.assertAlmostEqual(largest_growth(name, s, s.positions), 1, 12)
-            for length in (1e-2, 1e-3, 1e-4):
-                for _ in range(50):
-                    v = random.normal(size=s.positions.shape)
-                    self.assertLess(largest_growth(name, s, s.positions + length * v / np.abs(v).max()), 1 + 1e-12, name)
-
-    def test_forces_balance_on_spheres_and_on_walls(self):
-        for name in SCENES:
-            s = start(name, 40, 5, unequal=True)
-            s.crunch()
-            c, f = s.contacts, s.forces
-            net = np.zeros_like(s.positions)
-            wall = c.pairs[:, 1] < 0
-            push = f[:, None] * c.vectors
-            np.add.at(net, c.pairs[:, 0], push)
-            np.add.at(net, c.pairs[~wall, 1], -push[~wall])
-            self.assertLess(np.abs(net).max(), 1e-12, name)
-            np.testing.assert_allclose(push[wall].sum(0), 0, atol=1e-11)
-            count = np.bincount(c.pairs[:, 0], minlength=s.n) + np.bincount(c.pairs[~wall, 1], minlength=s.n)
-            np.testing.assert_array_equal(count, s.coordination)
-            spheres = s.coordination - np.bincount(c.pairs[wall, 0], minlength=s.n)
-            stable = ~np.asarray(s.rattlers, bool)
-            np.testing.assert_array_equal(s.near_coordination(1e-9)[stable], spheres[stable])
-            # The virial of a closed container: sum of f r over pairs = sum over walls of f times the distance of the touched
-            # point from the centre, less the radius, along the normal.
-            if name in ("box", "circle", "brick", "can", "ball", "cone"):
-                centre = s.positions - np.diag(s.cell) / 2
-                outward = -(push[wall] * centre[c.pairs[wall, 0]]).sum()
-                i, j = c.pairs[~wall].T
-                inside = (f[~wall] * (s.diameters[i] + s.diameters[j]) / 2).sum()
-                self.assertAlmostEqual(outward / inside, 1, 11)
 
 
 class Densest(unittest.TestCase):
@@ -312,16 +210,13 @@ class Curvature(unittest.TestCase):
             def load(u):
                 x = s.positions.copy()
                 x[told["spheres"]] += step * u.reshape(-1, d)
-                distance = wall_distances(name, x, np.diag(s.cell))[0]
+                distance = wall_distances(SCENES[name], x, np.diag(s.cell))[0]
                 total = 0.0
                 for (i, j), k in index.items():
                     if j < 0:
                         total += told["force"][k] * distance[i, -1 - j]
                     else:
-                        r = x[i] - x[j]
-                        cell = open_cell(name, np.diag(s.cell))
-                        r = r - np.diag(cell) * np.round(r / np.diag(cell))
-                        total += told["force"][k] * np.linalg.norm(r)
+                        total += told["force"][k] * np.linalg.norm(away(SCENES[name], s, x[i] - x[j]))
                 return total
 
             null = told["null"]
@@ -339,15 +234,14 @@ class Curvature(unittest.TestCase):
             s.crunch()
             spheres, (c, f) = s.hessian_map(), (s.contacts, s.forces)
             u = np.random.default_rng(3).normal(size=(len(spheres), s.dim))
-            edges, cell, step, t = np.diag(s.cell), np.diag(open_cell(name, np.diag(s.cell))), 1e-4, 0.5
+            edges, step, t = np.diag(s.cell), 1e-4, 0.5
 
             def lengths(step):
                 x = s.positions.copy()
                 x[spheres] += step * u
                 i, j = c.pairs.T
-                r = x[i] - x[np.maximum(j, 0)]
-                r = np.linalg.norm(r - cell * np.round(r / cell), axis=1)
-                walls = wall_distances(name, x, edges)[0]
+                r = np.linalg.norm(away(SCENES[name], s, x[i] - x[np.maximum(j, 0)]), axis=1)
+                walls = wall_distances(SCENES[name], x, edges)[0]
                 return np.where(j < 0, walls[i, np.where(j < 0, -1 - j, 0)], r)
 
             bend = (lengths(step) + lengths(-step) - 2 * lengths(0)) / step**2
@@ -376,7 +270,7 @@ class Steps(unittest.TestCase):
                 for move, now in zip(moves, steps):
                     x += move
                     factor = (now / s.packing_fraction) ** (1 / s.dim)  # diameters over those of the end
-                    self.assertGreater(largest_growth(name, s, x) / factor, 1 - 1e-12, (name, method))
+                    self.assertGreater(largest_growth(SCENES[name], s, x) / factor, 1 - 1e-12, (name, method))
                 self.assertLess(np.abs(np.mod(x - s.positions + edges / 2, edges) - edges / 2).max(), 1e-9)
                 if method == "sequential_lp":  # diameters never shrink
                     self.assertGreater(np.diff(np.concatenate([[phi], steps])).min(), -1e-13)

@@ -4,9 +4,7 @@ import unittest
 
 import jam
 import numpy as np
-from test_walls_jammed import SCENES, start, wall_distances
-from test_walls_structure import SCENES as OPEN
-from test_walls_structure import ROUND, depth
+from wall_scenes import NARROW, SCENES, energy, start, wall_distances
 
 
 class Runs(unittest.TestCase):
@@ -14,12 +12,12 @@ class Runs(unittest.TestCase):
         for name in ("slit", "can", "ball", "square", "circle"):
             for monte_carlo in (None, {"step": 0.1}):
                 n = 30
-                s = jam.System.random(n=n, seed=4, packing_fraction=0.2, diameters=1 + 0.5 * (np.arange(n) % 2), **OPEN[name])
+                s = jam.System.random(n=n, seed=4, packing_fraction=0.2, diameters=1 + 0.5 * (np.arange(n) % 2), **NARROW[name])
                 runs = s.isoconf([5, 20], runs=20, keep=[0, 1], monte_carlo=monte_carlo, density_ratio=0.999)
                 a = s.diameters / 2 * 0.999 ** (1 / s.dim)
                 for m in (0, 1):
                     for moved in runs.kept[m]:
-                        least = depth(name, s, s.positions + moved) / a
+                        least = wall_distances(NARROW[name], s.positions + moved, np.diag(s.cell))[0].min(1) / a
                         self.assertGreater(least.min(), 1 - 1e-9, name)
                 self.assertGreater(np.abs(runs.kept[1]).max(), 2 * s.diameters.mean() * 0.2)
 
@@ -31,7 +29,7 @@ class Runs(unittest.TestCase):
             self.assertGreater(abs(moved.mean(0)[2]), 1e-6)
 
     def test_mean_pressure_is_that_of_one_long_run(self):
-        s = jam.System.random(n=100, seed=4, packing_fraction=0.25, **OPEN["slit"])
+        s = jam.System.random(n=100, seed=4, packing_fraction=0.25, **NARROW["slit"])
         s.run(collisions_per_particle=50)
         runs = s.isoconf([200.0], runs=30)
         p = s.run(collisions_per_particle=2500).pressure
@@ -41,7 +39,7 @@ class Runs(unittest.TestCase):
 class Observed(unittest.TestCase):
     def test_histograms_of_a_dilute_gas_are_1_beside_any_walls(self):
         """Pairs over those of partners spread evenly within the walls: without that a small container has fewer pairs by half."""
-        for name, scene in OPEN.items():
+        for name, scene in NARROW.items():
             s = jam.System.random(n=100, seed=1, packing_fraction=0.02, diameters=1 + 0.5 * (np.arange(100) % 2), **scene)
             s.run(50)
             with s.observing(sample_every=4, gap_bins=4, gap_min=0.5, gap_max=2.0, r_bins=8, r_max=4.0) as seen:
@@ -82,42 +80,14 @@ class SoftMonteCarlo(unittest.TestCase):
 
     def test_energy_counts_pairs_and_walls(self):
         for name in ("slit", "can", "circle", "square"):
-            for unit in ("length", "relative"):
-                n = 20
-                s = jam.System.random(n=n, seed=3, packing_fraction=0.5, overlap="allow", diameters=1 + 0.5 * (np.arange(n) % 2), **OPEN[name])
-                x, edge = s.positions, np.diag(s.cell)
-                s = jam.System.from_arrays(x, 1.3 * s.diameters, overlap="allow", **{"cell": np.diag(edge), **OPEN[name], "dim": s.dim})
-                a = s.diameters / 2
-                scale = a if unit == "relative" else np.ones(n)
-                energy = walls = (self.wall_overlaps(name, s, a) ** 2.5 / scale[:, None] ** 2.5).sum()
-                for i in range(n):
-                    for j in range(i):
-                        for shift in self.images(name, s):
-                            sigma = a[i] + a[j]
-                            r = np.linalg.norm(x[i] - x[j] + shift)
-                            energy += (max(0, sigma - r) / (sigma if unit == "relative" else 1)) ** 2.5
-                self.assertGreater(walls, 1e-6 * energy)
+            for unit, scale in (("length", "absolute"), ("relative", "relative")):
+                s = jam.System.random(n=20, seed=3, packing_fraction=0.5, overlap="allow", diameters=1 + 0.5 * (np.arange(20) % 2), **NARROW[name])
+                s.scale_diameters(1.3)
+                expected = 2.5 * energy(NARROW[name], s.positions, s, scale, 2.5)
+                self.assertTrue((wall_distances(NARROW[name], s.positions, np.diag(s.cell))[0].min(1) < s.diameters / 2).any())
                 options = {"alpha": 2.5, "energy_unit": unit, "temperature": 1e-12, "step": 1e-12}
                 runs = s.isoconf([1], runs=1, monte_carlo=options)
-                self.assertAlmostEqual(runs.series["energy"].sum() * n / energy, 1, 9, (name, unit))
-
-    @staticmethod
-    def images(name, s):
-        edge, d = np.diag(s.cell), s.dim
-        closed = [name in ROUND and c < ROUND[name] or "xyz"[c] in OPEN[name].get("walls", "") for c in range(d)]
-        steps = [[0] if shut else [-1, 0, 1] for shut in closed]
-        return np.stack(np.meshgrid(*steps), -1).reshape(-1, d) * edge
-
-    @staticmethod
-    def wall_overlaps(name, s, a):
-        x, edge, rows = s.positions, np.diag(s.cell), []
-        for c in range(s.dim):
-            if "xyz"[c] in OPEN[name].get("walls", ""):
-                rows += [x[:, c], edge[c] - x[:, c]]
-        if name in ROUND:
-            k = ROUND[name]
-            rows.append(edge[0] / 2 - np.linalg.norm(x[:, :k] - edge[0] / 2, axis=1))
-        return np.maximum(0, a[:, None] - np.array(rows).T)
+                self.assertAlmostEqual(runs.series["energy"].sum() * s.n / expected, 1, 9, (name, unit))
 
     def test_swaps_keep_the_boltzmann_weight_at_walls(self):
         # Two disks far apart, each held at a wall or free: the large one is at the wall with the weight of its overlap.
@@ -156,7 +126,7 @@ class FloppyModes(unittest.TestCase):
                     y = s.positions + t * u
                     length = sigma[:, None] * c.vectors + t * (u[i] - u[np.maximum(j, 0)])
                     between = np.linalg.norm(length, axis=1)
-                    beside = wall_distances(name, y[i[wall]], np.diag(s.cell))[0][np.arange(wall.sum()), -1 - j[wall]]
+                    beside = wall_distances(SCENES[name], y[i[wall]], np.diag(s.cell))[0][np.arange(wall.sum()), -1 - j[wall]]
                     twice += weight * ((s.forces[~wall] * between[~wall]).sum() + (s.forces[wall] * beside).sum())
                 bend = twice / h**2
                 if abs(bend) > 1e-3 * s.forces.sum() / s.diameters.mean() * (u**2).sum():

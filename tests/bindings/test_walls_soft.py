@@ -6,30 +6,9 @@ import unittest
 
 import jam
 import numpy as np
-from test_walls_jammed import SCENES, open_cell, wall_distances
+from wall_scenes import SCENES, energy, overlaps
 
 ALPHAS = {"relative": 2.0, "absolute": 2.5, "bare": 1.5}
-
-
-def overlaps(name, x, s):
-    """(overlap, contact distance, i, j) of all pairs and walls, touching or not."""
-    edges, cell, radius = np.diag(s.cell), np.diag(open_cell(name, np.diag(s.cell))), s.diameters / 2
-    i, j = np.triu_indices(len(x), 1)
-    r = x[i] - x[j]
-    shifts = np.stack(np.meshgrid(*[[-1, 0, 1]] * s.dim), -1).reshape(-1, s.dim) * cell
-    length = np.linalg.norm(r[None] + shifts[:, None], axis=2)
-    sigma = np.broadcast_to(radius[i] + radius[j], length.shape)
-    distance = wall_distances(name, x, edges)[0]
-    k, w = np.indices(distance.shape)
-    i, j = (np.concatenate([np.broadcast_to(a, length.shape).ravel(), b.ravel()]) for a, b in ((i, k), (j, -1 - w)))
-    sigma = np.concatenate([sigma.ravel(), np.broadcast_to(radius[:, None], distance.shape).ravel()])
-    return sigma - np.concatenate([length.ravel(), distance.ravel()]), sigma, i, j
-
-
-def energy(name, x, s, scale="relative", alpha=2.0):
-    delta, sigma, _, _ = overlaps(name, x, s)
-    inside = np.maximum(delta, 0) / (sigma if scale == "relative" else 1)
-    return (inside**alpha).sum() / (1 if scale == "bare" else alpha)
 
 
 def soft(name, n, seed, phi, unequal=True):
@@ -49,25 +28,25 @@ class Minima(unittest.TestCase):
                     s = soft(name, 24, 3, dense(name))
                     r = s.relax(scale=scale, alpha=alpha)
                     self.assertTrue(r.converged and r.contacts > 0)
-                    self.assertAlmostEqual(energy(name, s.positions, s, scale, alpha) / r.energy, 1, 10)
+                    self.assertAlmostEqual(energy(SCENES[name], s.positions, s, scale, alpha) / r.energy, 1, 10)
                     # Every displacement changes the energy at second order alone.
                     u = np.random.default_rng(1).normal(size=(8,) + s.positions.shape)
                     step = 1e-6 * s.diameters.mean()
                     # Contacts that are open by less than the step change sides: an error of step^alpha each.
                     limit = 1e-9 * r.energy / step + s.n * step ** (alpha - 1)
                     for v in u:
-                        slope = (energy(name, s.positions + step * v, s, scale, alpha) - energy(name, s.positions - step * v, s, scale, alpha)) / (2 * step)
+                        slope = (energy(SCENES[name], s.positions + step * v, s, scale, alpha) - energy(SCENES[name], s.positions - step * v, s, scale, alpha)) / (2 * step)
                         self.assertLess(abs(slope), limit)
                         # against the same sum at a place that is no minimum
                         far = s.positions + 0.01 * s.diameters.mean() * v
-                        slope = (energy(name, far + step * v, s, scale, alpha) - energy(name, far - step * v, s, scale, alpha)) / (2 * step)
+                        slope = (energy(SCENES[name], far + step * v, s, scale, alpha) - energy(SCENES[name], far - step * v, s, scale, alpha)) / (2 * step)
                         self.assertGreater(abs(slope), limit)
 
     def test_contacts_and_forces_are_those_of_the_overlaps(self):
         for name in SCENES:
             s = soft(name, 30, 2, dense(name))
             s.relax()
-            delta, sigma, i, j = overlaps(name, s.positions, s)
+            delta, sigma, i, j = overlaps(SCENES[name], s.positions, s)
             stable, c = ~np.asarray(s.rattlers, bool), s.contacts
             on = (delta > 0) & stable[i] & ((j < 0) | stable[j])
             expected = sorted(zip(i[on], j[on], delta[on] / sigma[on] ** 2))
@@ -88,7 +67,7 @@ class Minima(unittest.TestCase):
             x = [s.positions.copy() for _ in range(3)]
             for k in (0, 2):
                 x[k][spheres] += (k - 1) * step * u
-            second = (energy(name, x[0], s) + energy(name, x[2], s) - 2 * energy(name, x[1], s)) / step**2
+            second = (energy(SCENES[name], x[0], s) + energy(SCENES[name], x[2], s) - 2 * energy(SCENES[name], x[1], s)) / step**2
             self.assertAlmostEqual(u.ravel() @ (h @ u.ravel()) / second, 1, 3, name)
             self.assertGreater(s.modes(k=2, stiffness="soft", prestress=1.0).values[0], 0)
 
@@ -134,29 +113,13 @@ class Known(unittest.TestCase):
             np.testing.assert_allclose(centre.sum(0), 0, atol=1e-12)
             self.assertEqual((r.contacts, r.rattlers), (3, 0))
 
-    def test_five_disks_in_a_circle_form_a_pentagon(self):
-        found = 0
-        for seed in range(1, 6):
-            s = soft("circle", 5, seed, 0.75, unequal=False)
-            r = s.relax()
-            a = s.diameters[0] / 2
-            # ring of radius x: wall force against that of two neighbours at 2 x sin(pi / 5)
-            h = np.sin(np.pi / 5)
-            x = (0.5 / a**2 - 1 / a + h / a) / (1 / a**2 + h**2 / a**2)
-            found += r.converged and np.allclose(np.linalg.norm(s.positions - 0.5, axis=1), x, rtol=1e-11)
-        self.assertGreater(found, 0)
-
-    def test_a_sphere_wider_than_its_slit_is_refused(self):
-        with self.assertRaisesRegex(ValueError, "does not fit"):
-            jam.System.from_arrays(np.array([[0.5, 0.2]]), 1.2, dim=2, cell=[3, 1], walls="y", overlap="allow")
-
 
 class Pressure(unittest.TestCase):
     def test_walls_carry_the_pressure_of_the_virial(self):
         for name in SCENES:
             s = soft(name, 40, 4, dense(name))
             r = s.relax(scale="absolute")
-            delta, sigma, i, j = overlaps(name, s.positions, s)
+            delta, sigma, i, j = overlaps(SCENES[name], s.positions, s)
             on = delta > 0
             self.assertAlmostEqual((delta[on] * (sigma - delta)[on]).sum() / (s.dim * s.info.volume) / r.pressure, 1, 9)
             w = s.walls()
@@ -168,22 +131,6 @@ class Pressure(unittest.TestCase):
             if name in ("box", "brick"):  # the mean over axes, weighted by nothing: each axis has P_aa
                 self.assertAlmostEqual(w.stress.mean(), 1, 10)
                 np.testing.assert_allclose(w.stress[::2], w.stress[1::2], rtol=1e-9)
-
-    def test_pressure_is_the_slope_of_the_energy_against_the_size(self):
-        # d U / d ln R at the minimum, walls fixed: sum f r = d P V.
-        for name in ("box", "circle", "tube", "ball"):
-            s = soft(name, 30, 6, dense(name))
-            r = s.relax()
-            step = 1e-6
-            grown = [energy(name, s.positions, s.copy()) for _ in range(1)]
-            values = []
-            for factor in (1 - step, 1 + step):
-                t = s.copy()
-                t.scale_diameters(factor)
-                values.append(energy(name, s.positions, t))
-            slope = (values[1] - values[0]) / (2 * step)
-            self.assertAlmostEqual(slope / (s.dim * r.pressure * s.info.volume), 1, 6, name)
-            self.assertAlmostEqual(grown[0] / r.energy, 1, 10)
 
 
 class Jamming(unittest.TestCase):

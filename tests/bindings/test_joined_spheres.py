@@ -199,64 +199,42 @@ class Walls(Folder):
 class ByDistance(Folder):
     """A bed at rest: overlaps and gaps as friction and weight leave them, so that no forces along normals balance."""
 
-    def bed(self, **options):
-        s = jam.System.random(n=80, seed=5, packing_fraction=0.2, cell=[1, 1, 1.2], **options)
-        rng = np.random.default_rng(1)
-        s.compress(packing_fraction=0.6)
-        x = np.clip(s.positions + rng.normal(scale=2e-3, size=(80, 3)), 0.02, [0.98, 0.98, 1.18])
-        return jam.System.from_arrays(x, s.diameters, cell=s.cell, overlap="allow", **options)
+    def bed(self, dim=3, side=1.2, **options):
+        """Spheres of one size, or of two in a plane or within a round wall."""
+        if dim == 2 or "container" in options:
+            options["diameters"] = [1.0, 1.3] * 40
+        s = jam.System.random(80, dim, 5, packing_fraction=0.2, cell=[1, 1, side][:dim], **options)
+        s.compress(packing_fraction=0.5 if "diameters" in options else 0.6)
+        x = s.positions + np.random.default_rng(1).normal(scale=2e-3, size=s.positions.shape)
+        options.pop("diameters", None)
+        return jam.System.from_arrays(np.clip(x, 0.02, np.diag(s.cell) - 0.02), s.diameters, cell=s.cell, overlap="allow", **options)
 
-    def expected(self, s, gap, closed):
-        found = []
-        steps = [(0,) if axis in closed else (-1, 0, 1) for axis in "xyz"]
+    def expected(self, s, gap, flat, round_axes):
+        x, found = s.positions, []
+        steps = [(0,) if axis in flat or c < round_axes else (-1, 0, 1) for c, axis in enumerate("xyz"[: s.dim])]
         for shift in np.array(list(itertools.product(*steps))) @ s.cell:
-            d = s.positions[:, None] - s.positions - shift
-            h = np.linalg.norm(d, axis=-1) / (s.radii[:, None] + s.radii) - 1
-            i, j = np.nonzero(h < gap)
-            found += [(a, b) for a, b in zip(i.tolist(), j.tolist()) if a < b]
-        for w, (axis, side) in enumerate((a, b) for a in "xyz" if a in closed for b in (0, 1)):
-            c = "xyz".index(axis)
-            distance = s.cell[c, c] - s.positions[:, c] if side else s.positions[:, c]
-            found += [(a, -1 - w) for a in np.nonzero(distance / s.radii - 1 < gap)[0].tolist()]
-        return sorted(found)
+            h = np.linalg.norm(x[:, None] - x - shift, axis=-1) / (s.radii[:, None] + s.radii) - 1
+            found += [(a, b) for a, b in np.argwhere(h < gap).tolist() if a < b]
+        away = [far for c, axis in enumerate("xyz") if axis in flat for far in (x[:, c], s.cell[c, c] - x[:, c])]
+        if round_axes:
+            away.append(0.5 - np.linalg.norm(x[:, :round_axes] - 0.5, axis=1))
+        return sorted(found + [(a, -1 - w) for w, far in enumerate(away) for a in np.flatnonzero(far / s.radii - 1 < gap).tolist()])
 
     def test_all_pairs_and_walls_within_the_gap(self):
-        for closed in ("", "z", "xyz"):
-            s = self.bed(walls=closed) if closed else self.bed()
+        round_wall = {"container": "cylinder"}
+        for dim, options, flat, round_axes in (
+            (3, {}, "", 0), (3, {"walls": "z"}, "z", 0), (3, {"walls": "xyz"}, "xyz", 0), (2, {}, "", 0), (3, round_wall, "", 2),
+            (3, {**round_wall, "walls": "z"}, "z", 2), (3, {"container": "ball", "side": 1}, "", 3), (2, {"container": "ball"}, "", 2),
+        ):
+            s = self.bed(dim, **options)
             for gap in (1e-9, 0.01, 0.05):
-                status = s.contacts_by_distance(gap)
+                s.contacts_by_distance(gap)
                 c = s.contacts
-                self.assertEqual(sorted(map(tuple, c.pairs.tolist())), self.expected(s, gap, closed))
+                self.assertEqual(sorted(map(tuple, c.pairs.tolist())), self.expected(s, gap, flat, round_axes), (dim, options))
                 self.assertEqual(s.info.contact_gap, gap)
                 self.assertTrue(np.isnan(c.forces).all() and (c.gaps < gap).all())
-                z = np.bincount(c.pairs[c.pairs >= 0], minlength=80)
-                np.testing.assert_array_equal(s.coordination, z)
+                np.testing.assert_array_equal(s.coordination, np.bincount(c.pairs[c.pairs >= 0], minlength=80))
             np.testing.assert_allclose(s.fabric_tensor(), c.vectors.T @ c.vectors / len(c), atol=1e-14)
-
-    def test_round_walls_disks_and_own_images(self):
-        for dim, options, closed in (
-            (3, {"container": "cylinder", "cell": [1, 1, 1.2]}, "xy"),
-            (3, {"container": "cylinder", "walls": "z", "cell": [1, 1, 1.2]}, "xyz"),
-            (3, {"container": "ball"}, "xyz"),
-            (2, {"container": "ball"}, "xy"),
-            (2, {}, ""),
-        ):
-            made = jam.System.random(40, dim, 5, diameters=[1.0, 1.3] * 20, packing_fraction=0.2, **options)
-            made.compress(packing_fraction=0.5)
-            x = made.positions + np.random.default_rng(1).normal(scale=2e-3, size=(40, dim))
-            s = jam.System.from_arrays(x, made.diameters, cell=made.cell, overlap="allow", **{k: v for k, v in options.items() if k != "cell"})
-            for gap in (0.01, 0.2):
-                found, x = [], s.positions
-                for shift in np.array(list(itertools.product(*[(0,) if "xyz"[c] in closed else (-1, 0, 1) for c in range(dim)]))) @ s.cell:
-                    h = np.linalg.norm(x[:, None] - x - shift, axis=-1) / (s.radii[:, None] + s.radii) - 1
-                    found += [(a, b) for a, b in np.argwhere(h < gap).tolist() if a < b]
-                away = [] if "walls" not in options else [x[:, 2], s.cell[2, 2] - x[:, 2]]
-                if "container" in options:
-                    axes = 2 if options["container"] == "cylinder" else dim
-                    away.append(0.5 - np.linalg.norm(x[:, :axes] - 0.5, axis=1))
-                found += [(a, -1 - w) for w, far in enumerate(away) for a in np.flatnonzero(far / s.radii - 1 < gap).tolist()]
-                s.contacts_by_distance(gap)
-                self.assertEqual(sorted(map(tuple, s.contacts.pairs.tolist())), sorted(found), (dim, options))
         alone = jam.System.from_arrays([[0.5, 0.5]], 0.95, cell=[1, 3])  # touches its own image along the short side
         alone.contacts_by_distance(0.1)
         self.assertEqual(alone.contacts.pairs.tolist(), [[0, 0]])

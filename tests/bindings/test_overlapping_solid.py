@@ -118,49 +118,12 @@ class ClosedForms(unittest.TestCase):
                 s = soft([more[k] for k in order], [radii[k] for k in order], cell=[1] * dim)
                 self.assertAlmostEqual(s.solid_profile(0, 1).solid[0], true, 13)
 
-    def test_three_disks(self):
-        """Centres one radius apart: what all three share is a Reuleaux triangle."""
-        r = 0.2
-        x = np.array([[0.5 + r * math.cos(t), 0.5 + r * math.sin(t)] for t in (0.3, 0.3 + 2 * math.pi / 3, 0.3 + 4 * math.pi / 3)])
-        x = 0.5 + (x - 0.5) / math.sqrt(3)
-        exact = 3 * ball(r, 2) - 3 * lens(r, r, r, 2) + (math.pi - math.sqrt(3)) / 2 * r * r
-        self.assertAlmostEqual(solid(soft(x, r)), exact, 13)
-
-    def test_lattices(self):
-        """A simple cubic lattice of unit period, two copies along each axis: spheres share volume in pairs, then in fours."""
-
-        def lattice(radius, dim):
-            x = np.array(list(itertools.product((0.1, 1.1), repeat=dim)))
-            return solid(soft(x, radius, cell=2 * np.eye(dim)))
-
-        for radius in (0.55, 0.7):
-            cap = math.pi * (radius - 0.5) ** 2 * (2 * radius + 0.5) / 3
-            self.assertAlmostEqual(lattice(radius, 3), ball(radius, 3) - 6 * cap, 12)
-        self.assertAlmostEqual(lattice(0.75, 3), ball_in_cube(0.75), 9)
-        self.assertAlmostEqual(lattice(0.9, 3), 1.0, 12)  # nothing is void from sqrt(3) / 2 on
-        self.assertAlmostEqual(lattice(0.6, 2), ball(0.6, 2) - 4 * segment(0.6, 0.5), 12)
-        self.assertAlmostEqual(lattice(0.75, 2), 1.0, 12)
-
     def test_few_spheres_by_arcs(self):
         rng = np.random.default_rng(3)
         for n, dim in ((3, 2), (6, 2), (9, 2), (3, 3), (5, 3)):
             x, r = rng.uniform(0.3, 0.7, (n, dim)), rng.uniform(0.1, 0.29, n)
             exact = union_of_disks(x, r) if dim == 2 else union_of_balls(x, r)
             self.assertAlmostEqual(solid(soft(x, r)), exact, 12 if dim == 2 else 7)
-
-
-def segment(r, h):
-    return r * r * math.acos(h / r) - h * math.sqrt(r * r - h * h)
-
-
-def ball_in_cube(r, steps=20000):
-    """The ball within the unit cube about its centre, by heights."""
-    t = (np.arange(steps) + 0.5) / steps * 0.5
-    area = []
-    for z in t:
-        q = math.sqrt(r * r - z * z)
-        area.append(1.0 if q >= math.sqrt(0.5) else ball(q, 2) - 4 * segment(q, 0.5) if q > 0.5 else ball(q, 2))
-    return 2 * sum(area) * 0.5 / steps
 
 
 SCENES = (
@@ -249,15 +212,6 @@ class ManySpheres(InFolder):
             apart = jam.System.random(n=20, dim=dim, seed=1, packing_fraction=0.2, non_additivity=0.3,
                                       diameters=np.where(np.arange(20) % 2, 1, 1.4))
             self.assertAlmostEqual(solid(apart), apart.packing_fraction, 13)
-
-    def test_soft_spheres_after_relax(self):
-        s = jam.System.random(n=64, seed=2, packing_fraction=0.72, overlap="allow")
-        s.relax()
-        points = np.random.default_rng(2).uniform(size=(100000, 3))
-        share = solid(s)
-        self.assertLess(abs(inside(s, points, {}).mean() - share), 4.5 * math.sqrt(share * (1 - share) / 100000))
-        s = jam.System.random(n=20, seed=1, packing_fraction=3.0, overlap="allow")
-        self.assertTrue((s.solid_profile(0, 20).solid <= 1 + 1e-12).all())
 
 
 @unittest.skipUnless(PACK, "jam-pack is not built")

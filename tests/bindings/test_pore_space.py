@@ -12,6 +12,7 @@ from pathlib import Path
 import jam
 import numpy as np
 from packings import InFolder
+from test_overlapping_solid import union_of_disks
 
 PACK = os.environ.get("JAM_PACK")
 
@@ -65,16 +66,6 @@ class Mesh(InFolder):
         sides = np.diag(s.cell)  # of the brick
         self.assertTrue((corners >= 0).all() and (corners <= sides.astype(np.float32)).all())
         return report
-
-    def test_a_fluid_has_no_contacts_to_bridge(self):
-        for seed in (1, 2, 3):
-            bed = jam.System.random(n=600, seed=seed, cell=[1, 1, 1.5])
-            bed.compress(porosity=0.4)
-            found = bed.contacts_from_geometry()
-            self.assertEqual((found.contacts, found.pairs_within), (0, 0))
-            self.assertIn("no set of contacts", str(found))
-            chosen = bed.contacts_from_geometry(tolerance=0.02)  # the user's own choice
-            self.assertGreater(chosen.pairs_within, 0)
 
     def test_is_closed_and_its_volume_converges(self):
         s = jammed()
@@ -177,24 +168,12 @@ class Image(unittest.TestCase):
     def test_porosity_is_exact_to_its_resolution(self):
         s = jammed()
         exact = 1 - s.packing_fraction
-        for m in (32, 64, 128):
-            image = s.image(shape=(m, m, m))
-            self.assertEqual((image.shape, image.dtype), ((m, m, m), np.uint8))
-            # about sqrt(voxels at the surface) of them are wrong at random
-            surface = math.pi * (s.diameters**2).sum() * m * m
-            self.assertLess(abs(1 - image.mean() - exact), 5 * math.sqrt(surface) / m**3)
         shares = s.image(shape=(48, 48, 48), lines=8)
         self.assertLess(abs(1 - shares.mean(dtype=float) - exact), 2e-5)
         self.assertTrue(((shares >= 0) & (shares <= 1)).all())
         whole = s.image(shape=(48, 48, 48))
+        self.assertEqual((whole.shape, whole.dtype), ((48, 48, 48), np.uint8))
         self.assertTrue((whole[shares == 1] == 1).all() and (whole[shares == 0] == 0).all())
-
-    def test_images_repeat(self):
-        s = jam.System.random(30, packing_fraction=0.3)
-        x = np.rint(s.positions * 2**20) / 2**20
-        a = jam.System.from_arrays(x, s.diameters * 0.9).image(shape=(32, 16, 8))
-        b = jam.System.from_arrays((x + [0.25, 0.5, 0.125]) % 1, s.diameters * 0.9).image(shape=(32, 16, 8))
-        np.testing.assert_array_equal(np.roll(a, (8, 8, 1), (0, 1, 2)), b)
 
     def test_centres_decide(self):
         s = jam.System.random(40, packing_fraction=0.3, cell=TILTED)
@@ -207,14 +186,6 @@ class Image(unittest.TestCase):
             for shift in shifts:
                 inside |= ((points - x - shift) ** 2).sum(-1) < r * r
         np.testing.assert_array_equal(image == 1, inside)
-
-    def test_disks_and_containers(self):
-        disks = jam.System.random(50, 2, packing_fraction=0.5)
-        self.assertLess(abs(disks.image(shape=(100, 100), lines=8).mean(dtype=float) - 0.5), 1e-4)
-        ball = jam.System.random(30, packing_fraction=0.2, container="ball")
-        image = ball.image(shape=(60, 60, 60))
-        self.assertLess(abs((image != 2).mean() - math.pi / 6), 1e-3)
-        self.assertLess(abs((image == 1).sum() / (image != 2).sum() - 0.2), 4e-3)
 
     def test_files_say_the_same(self):
         s = jam.System.random(30, packing_fraction=0.3, cell=[1, 1.5, 2])
@@ -262,49 +233,17 @@ class Image(unittest.TestCase):
             s.write_voxels("/tmp/image.tif")
 
 
-def lens(a, b, d):
-    """Area that two circles share."""
-    if d >= a + b:
-        return 0.0
-    if d <= abs(a - b):
-        return math.pi * min(a, b) ** 2
-    x = (d * d + a * a - b * b) / (2 * d)
-    return a * a * math.acos(x / a) + b * b * math.acos((d - x) / b) - d * math.sqrt(max(0.0, a * a - x * x))
-
-
 class Profiles(unittest.TestCase):
-    def test_slabs_add_up(self):
-        for s in (jammed(40), jam.System.random(40, packing_fraction=0.3, cell=TILTED), jam.System.random(40, 2, packing_fraction=0.4)):
-            for axis in range(s.dim):
-                p = s.solid_profile(axis, 17)
-                self.assertAlmostEqual(p.solid.mean(), s.packing_fraction, 13)
-                self.assertEqual(p.low[0], 0)
-                np.testing.assert_allclose(p.high[:-1], p.low[1:], rtol=1e-15)
-
-    def test_slabs_are_the_means_of_the_image(self):
-        s = jammed(40)
-        image = s.image(shape=(128, 128, 16), lines=6)
-        np.testing.assert_allclose(s.solid_profile(2, 16).solid, image.mean((0, 1), dtype=float), atol=2e-3)
-
-    def test_containers(self):
-        for container, dim, walls in (("ball", 3, ""), ("ball", 2, ""), ("cylinder", 3, ""), ("cylinder", 3, "z")):
-            s = jam.System.random(40, dim, packing_fraction=0.25, container=container, walls=walls, cell=None if dim == 2 else [1, 1, 1])
-            r = s.solid_profile(s.dim, 23)
-            power = 3 if container == "ball" and dim == 3 else 2
-            share = r.high**power - r.low**power
-            self.assertAlmostEqual((r.solid * share).sum() / share.sum(), s.packing_fraction, 12)
-            self.assertAlmostEqual(r.high[-1], 0.5, 14)
-            self.assertTrue((r.solid > -1e-12).all() and (r.solid < 1 + 1e-12).all())
-            x = s.solid_profile(0, 11)
-            self.assertTrue((x.solid > -1e-12).all() and (x.solid < 1).all())
 
     def test_a_sphere_in_a_tube(self):
-        """Shells by Simpson's rule over heights, and lenses by the formula of a triangle."""
+        """Shells by Simpson's rule over heights, of what two circles share."""
         x, r, edge = np.array([0.62, 0.55, 0.5]), 0.21, 0.4
         s = jam.System.from_arrays([x], 2 * r, cell=[1, 1, 1], container="cylinder")
         apart = math.hypot(x[0] - 0.5, x[1] - 0.5)
         angle = np.linspace(0, math.pi / 2, 20001)
-        f = np.array([lens(math.sqrt(max(0.0, r * r - (r * math.sin(t)) ** 2)), edge, apart) * r * math.cos(t) for t in angle])
+        q = r * np.cos(angle)
+        both = [math.pi * (a * a + edge * edge) - union_of_disks([(0, 0), (apart, 0)], [a, edge]) for a in q]
+        f = np.array(both) * q
         weight = np.ones(len(angle))
         weight[1:-1:2], weight[2:-1:2] = 4, 2
         inside = 2 * (weight * f).sum() * (angle[1] - angle[0]) / 3
@@ -334,55 +273,52 @@ class Pores(unittest.TestCase):
         with self.assertRaises(jam.errors.ArgumentError):
             s.near_coordination(0.0)
 
-    def test_simple_cubic_lattice(self):
-        for dim, widest in ((3, math.sqrt(3) / 2 - 0.5), (2, math.sqrt(2) / 2 - 0.5)):
-            s = jam.System.from_arrays([[0.5] * dim], 1 - 1e-12, cell=np.eye(dim))
-            p = s.pore_sizes(3000, 1)
-            self.assertAlmostEqual(p.radius.max(), widest, 9)
-            # those in the sphere that fits in the middle of the hole, which is at the corners of the cell
-            x = np.stack([p.x, p.y] + [p.z] * (dim == 3), 1)
-            x -= np.rint(x)
-            held = (x**2).sum(1) < (widest - 1e-9) ** 2
-            np.testing.assert_allclose(p.radius[held], widest, atol=1e-9)
-            self.assertTrue((p.radius[~held] < widest + 1e-9).all())
-            self.assertTrue((p.radius >= p.distance).all())
-
     def test_one_sphere_in_a_cube(self):
         """The largest pore is about the middle, whatever the radius; a small sphere takes no memory for its size."""
-        for dim, radius in itertools.product((2, 3), (1e-8, 1e-3, 0.02, 0.1, 0.2, 0.25, 0.3, 0.4)):
+        for dim, radius in itertools.product((2, 3), (1e-8, 1e-3, 0.02, 0.1, 0.2, 0.25, 0.3, 0.4, 0.5 - 1e-12)):
             s = jam.System.from_arrays([[0.0] * dim], radii=radius, box=1.0)
-            p, widest = s.pore_sizes(50, 1), math.sqrt(dim) / 2 - radius
+            p, widest = s.pore_sizes(3000 if radius > 0.4 else 50, 1), math.sqrt(dim) / 2 - radius
             x = np.stack([p.x, p.y] + [p.z] * (dim == 3), 1) - 0.5
             held = np.sqrt((x**2).sum(1)) < widest - 1e-9
             self.assertTrue(held.any())
             np.testing.assert_allclose(p.radius[held], widest, atol=1e-9)
+            self.assertTrue((p.radius[~held] < widest + 1e-9).all() and (p.radius >= p.distance).all())
 
     def test_nothing_larger_is_found_by_trying(self):
         """Spheres about many random points: each that contains a point and no solid is at most as large, and some nearly so."""
-        for dim, n in ((2, 24), (3, 24)):
-            s = jam.System.random(n, dim, 3, diameters=jam.sizes("list", n, curve=[(1, 0.7), (1.8, 0.3)], dim=dim))
+        tube = {"container": "cylinder", "packing_fraction": 0.2}
+        for dim, scene, period in (
+            (2, {}, [1, 1]),
+            (3, {}, [1, 1, 1]),
+            (3, {**tube, "cell": [1, 1, 1]}, [1e9, 1e9, 1]),
+            (3, {**tube, "cell": [1, 1, 0.8], "walls": "z"}, [1e9] * 3),
+        ):
+            s = jam.System.random(24, dim, 3, diameters=jam.sizes("list", 24, curve=[(1, 0.7), (1.8, 0.3)], dim=dim), **scene)
             s.compress(growth_rate=1e-1, pressure=300)
-            p = s.pore_sizes(60, 2)
+            p = s.pore_sizes(40, 2)
             x = np.stack([p.x, p.y, p.z][:dim], 1)
             rng = np.random.default_rng(1)
 
             def clearance(c):
                 d = c[:, None] - s.positions
-                d -= np.rint(d)
-                return (np.sqrt((d * d).sum(-1)) - s.diameters / 2).min(1)
+                d -= period * np.rint(d / period)
+                r = (np.sqrt((d * d).sum(-1)) - s.radii).min(1)
+                if "container" in scene:
+                    r = np.minimum(r, 0.5 - np.hypot(c[:, 0] - 0.5, c[:, 1] - 0.5))
+                return np.minimum(r, np.minimum(c[:, 2], 0.8 - c[:, 2])) if "walls" in scene else r
 
             np.testing.assert_allclose(clearance(x), p.distance, atol=1e-12)
             best = p.distance.copy()
             for k in range(len(x)):
                 centre, step = x[k][None], p.radius[k]
                 for _ in range(60):  # random steps about the best so far, ever shorter
-                    tries = np.vstack([centre, centre + step * rng.normal(size=(400, dim))])
+                    tries = np.vstack([centre, centre + step * rng.normal(size=(300, dim))])
                     r = clearance(tries)
                     d = tries - x[k]
                     r[(d * d).sum(1) > r * r] = -1
                     centre, best[k] = tries[[r.argmax()]], max(best[k], r.max())
                     step *= 0.85
-            self.assertTrue((best <= p.radius * (1 + 1e-9)).all())
+            self.assertTrue((best <= p.radius * (1 + 1e-7)).all())
             self.assertGreater((best > 0.98 * p.radius).mean(), 0.7)  # others end in a neighbouring hole
 
     def test_body_centred_lattice(self):
@@ -406,38 +342,6 @@ class Pores(unittest.TestCase):
                 self.assertTrue(held.any())
                 np.testing.assert_allclose(p.radius[held], 0.5, atol=1e-9)
                 self.assertTrue((p.radius[~held] < 0.5 + 1e-9).all())
-
-    def test_nothing_larger_is_found_in_a_tube(self):
-        for walls, length, n, grown in (("", 1.0, 12, False), ("z", 1.5, 30, False), ("z", 0.8, 20, True)):
-            s = jam.System.random(n, 3, 2, packing_fraction=0.2, container="cylinder", walls=walls, cell=[1, 1, length])
-            if grown:
-                s.compress(growth_rate=1e-1, pressure=300)
-            p = s.pore_sizes(40, 2)
-            x = np.stack([p.x, p.y, p.z], 1)
-            rng = np.random.default_rng(1)
-
-            def clearance(c):
-                d = c[:, None] - s.positions
-                if not walls:
-                    d[..., 2] -= length * np.rint(d[..., 2] / length)
-                r = (np.sqrt((d * d).sum(-1)) - s.radii).min(1)
-                r = np.minimum(r, 0.5 - np.hypot(c[:, 0] - 0.5, c[:, 1] - 0.5))
-                return np.minimum(r, np.minimum(c[:, 2], length - c[:, 2])) if walls else r
-
-            np.testing.assert_allclose(clearance(x), p.distance, atol=1e-12)
-            best = p.distance.copy()
-            for k in range(len(x)):
-                for _ in range(2):
-                    centre, step = x[k][None], p.radius[k]
-                    for _ in range(50):
-                        tries = np.vstack([centre, centre + step * rng.normal(size=(200, 3))])
-                        r = clearance(tries)
-                        d = tries - x[k]
-                        r[(d * d).sum(1) > r * r] = -1
-                        centre, best[k] = tries[[r.argmax()]], max(best[k], r.max())
-                        step *= 0.85
-            self.assertTrue((best <= p.radius * (1 + 1e-7)).all())
-            self.assertGreater((best > 0.98 * p.radius).mean(), 0.7)
 
     def test_a_solid_without_void_is_named(self):
         x = np.array(list(itertools.product((0.25, 0.75), repeat=3)))

@@ -147,20 +147,6 @@ class Stress(unittest.TestCase):
             growing.compress(growth_rate=1e-2, collisions_per_particle=40)
         self.assertAlmostEqual(observed.stress.trace() / 3 / observed.series["pressure"][0], 1.0, delta=1e-12)
 
-    def test_of_a_fluid_is_isotropic(self):
-        """Of 20 equal runs the components off the diagonal and the differences on it vanish within five standard errors."""
-        s = jam.System.random(n=200, dim=2, diameters=[1.0, 1.4] * 100, packing_fraction=0.4, seed=4)
-        s.run(collisions_per_particle=50)
-        parts = []
-        for _ in range(20):
-            with s.observing() as observed:
-                s.run(collisions_per_particle=100)
-            parts.append(observed.stress)
-        parts = np.array(parts)
-        for x in (parts[:, 0, 1], parts[:, 0, 0] - parts[:, 1, 1]):
-            self.assertLess(abs(x.mean()), 5 * x.std(ddof=1) / 20**0.5)
-            self.assertGreater(x.std(), 0)
-
     def test_of_dynamics_is_what_walls_take(self):
         """The normal component at flat walls is their pressure, but for what sum m x v gains in this time: below 1 %."""
         s = jam.System.random(n=200, dim=3, walls="z", packing_fraction=0.3, seed=2)
@@ -168,11 +154,6 @@ class Stress(unittest.TestCase):
         with s.observing() as observed:
             s.run(collisions_per_particle=1000)
         self.assertAlmostEqual(observed.stress[2, 2] / np.mean(s.walls().pressure), 1.0, delta=0.01)
-
-    def test_needs_forces(self):
-        s = jam.System.random(n=20, dim=2, seed=1)
-        with self.assertRaises(jam.JamError):
-            s.stress()
 
 
 class Shear(unittest.TestCase):
@@ -235,15 +216,6 @@ class Shear(unittest.TestCase):
         typical = np.abs(volume * np.diff(h["strain"]) * np.diff(h["stress"]))[~at]
         self.assertTrue((lost[~at] <= 0.2 * typical + 1e-12).all())
 
-    def test_a_sheared_cell_is_the_same_lattice(self):
-        s = soft(32)
-        s.shear(1.0, step=0.01)  # x has moved by one edge: the lattice of the cube again
-        side = s.box
-        t = jam.System.from_arrays(s.positions, s.diameters, box=side, overlap="allow")
-        before = s.shear_rows[-1]["energy"] * s.n
-        energy, stress = pair_sums(t)
-        self.assertAlmostEqual(energy / before, 1.0, delta=1e-9)
-
     def test_pieces_and_checkpoints_give_the_same_bits(self):
         whole, parts = soft(48), soft(48)
         whole.shear(0.02, step=1e-3)
@@ -257,15 +229,13 @@ class Shear(unittest.TestCase):
         self.assertTrue(np.array_equal(whole.cell, parts.cell))
 
     def test_pressure_and_single_components_are_held(self):
-        s = soft(64)
-        p = s.stress().trace() / 2
+        start = soft(64)
+        s, t, p = start.copy(), start.copy(), start.stress().trace() / 2
         s.shear(0.02, strain="volume", pressure=p)
         np.testing.assert_allclose(s.shear_rows["pressure"], p, rtol=1e-9)
-        self.assertGreater(np.ptp(s.shear_rows["phi"]), 0)
-        t = soft(64)
         t.shear(0.02, strain="edges_volume", pressure=p, components=1 << 3)  # the edge along y alone
         self.assertAlmostEqual(t.stress()[1, 1] / p, 1.0, delta=1e-9)
-        self.assertEqual(t.cell[0, 0], soft(64).cell[0, 0])
+        self.assertEqual(t.cell[0, 0], start.cell[0, 0])
 
     def test_components_are_held_at_values_of_their_own(self):
         for dim, phi, alpha in ((2, 0.9, 2.0), (3, 0.72, 2.5), (4, 0.55, 2.0)):
@@ -460,12 +430,6 @@ class Shear(unittest.TestCase):
         self.assertTrue(np.array_equal(pickle.loads(pickle.dumps(few)).positions, few.positions))
 
     def test_lines_of_compressed_spheres_buckle(self):
-        s = jam.System.random(n=12, dim=2, seed=1, packing_fraction=1.0, overlap="allow")
-        s.relax()
-        s.shear(0.3, step=0.02, mode=[[1, 0], [0, -1]])
-        rows = s.shear_rows
-        self.assertGreater(rows["contacts"].min(), 0)
-        self.assertGreater(rows["energy"].min(), 0)
         line = np.column_stack([np.arange(4) / 4 + 0.1, np.full(4, 0.5)])
         row = jam.System.from_arrays(line, np.full(4, 0.26), cell=[1.0, 1.0], overlap="allow")
         self.assertEqual(row.relax().energy, 0.0)  # it has room to buckle, and no overlap is left
@@ -509,17 +473,6 @@ class Shear(unittest.TestCase):
                 np.testing.assert_allclose(s.stress(), stress, rtol=0, atol=1e-10 * np.trace(stress))
                 self.assertAlmostEqual(s.shear_rows["stress"][-1], -stress[0, 1], delta=1e-10 * np.trace(stress))
 
-    def test_a_tilt_by_a_whole_period_is_none(self):
-        s = soft(32)
-        t = jam.System.from_arrays(s.positions, s.diameters, cell=[[s.box, 0], [s.box, s.box]], overlap="allow")
-        for packing in (s, t):
-            packing.relax()
-            packing.shear(0.01, step=1e-3)
-        np.testing.assert_allclose(t.shear_rows["stress"], s.shear_rows["stress"], rtol=0, atol=1e-10 * s.stress().trace())
-        apart = t.positions - s.positions
-        apart -= np.round(apart @ np.linalg.inv(s.cell)) @ s.cell
-        self.assertLess(abs(apart - apart.mean(axis=0)).max(), 1e-10)
-
 
 class Yield(unittest.TestCase):
     """yield_point on curves of known flow, and on two halves of a run."""
@@ -551,17 +504,6 @@ class Yield(unittest.TestCase):
             self.assertAlmostEqual(y.strain.value, 0.1 * way, delta=1e-9)
             self.assertLess(y.stress.error, 1e-12)
             self.assertAlmostEqual(y.strain.error, 1e-3, delta=1e-9)
-
-    def test_halves_of_a_run_agree(self):
-        s = soft(32)
-        s.shear(2.0, step=5e-3, resolution=1e-3)
-        rows = s.shear_rows
-        whole, first, second = (
-            yield_point(r, b).stress for r, b in ((rows, 0.2), (rows[rows["strain"] < 1.1], 0.2), (rows, 1.1))
-        )
-        self.assertLess(abs(first.value - second.value), 5 * np.hypot(first.error, second.error))
-        self.assertLess(abs(first.value + second.value - 2 * whole.value), 2 * whole.error)
-        self.assertGreater(whole.value, 0)
 
     def test_refusals(self):
         rows = self.curve(np.random.default_rng(2))

@@ -70,11 +70,6 @@ def triangular(m):
     return lattice([[0, 0]], [[1, 0], [0.5, np.sqrt(3) / 2]], [m, m])
 
 
-def made(x, cell, drop=(), **more):
-    keep = np.delete(np.arange(len(x)), list(drop))
-    return jam.System.from_arrays(x[keep], 1.0, cell=cell, overlap="shrink", **more)
-
-
 def same_bits(a, b):
     """Compares two packings of one seed: state and network, not times."""
     for name in ("positions", "diameters", "velocities", "forces", "coordination"):

@@ -133,6 +133,7 @@ def test_campaign(packing):
         with packing.copy() as again:
             again.isoconf([2, 5], runs=4, **options)
             assert again.isoconf([2, 5], runs=8, resume=True, **options).origin == whole.origin
+            assert nj.take_runs(again).runs == 8
         # a part that is refused loses nothing
         tight = dict(options, memory_limit=1e3)
         assert refused(jam.JamError, nj.campaign, packing, file, [2, 5], 40, **tight)
@@ -146,25 +147,10 @@ def test_edges(packing):
     assert list(nj.is_caged(runs, packing)) == [True, False]
     k = nj.correlations(runs, structure)
     assert k["c"][0] > 0.25 and k["c"][1] < 0.6 * k["c"][0] and abs(k["s"][1]) < 0.2
-    # sums fit into the memory, whole sets do not
-    limit = 1e6
-    assert packing.isoconf([2], runs=100, density_ratio=0.9, block=100, memory_limit=limit).runs == 100
-    wide = dict(runs=1000, keep=[0], density_ratio=0.9, block=1000, memory_limit=limit)
-    assert refused(jam.JamError, packing.isoconf, [2], **wide)
     # spheres that touch nothing: rattlers only
     loose = jam.System.from_arrays(np.array([[0.2, 0.2, 0.2], [0.7, 0.7, 0.7], [0.2, 0.7, 0.2]]), [0.1] * 3)
     assert loose.contacts_from_geometry().contacts == 0
     assert refused(ValueError, nj.predictors, loose)
-
-
-def test_masses():
-    """In free flight <|dr_i|^2> = d T t^2 / m_i, so large spheres of equal density go less far by their volumes."""
-    sizes = [1.0] * 30 + [1.5] * 30
-    for masses, ratio in (("equal", 1.0), ("volume", 1.5**3)):
-        mixture = jam.System.random(n=60, dim=3, seed=2, packing_fraction=0.1, diameters=sizes, masses=masses)
-        runs = mixture.isoconf([1e-6], clock="time", runs=200, block=200)
-        mobility = nj.propensity(runs)[0]
-        assert abs(mobility[:30].mean() / mobility[30:].mean() / ratio - 1.0) < 0.06
 
 
 def test_monte_carlo(packing):
@@ -185,8 +171,6 @@ def test_monte_carlo(packing):
 def test_errors():
     fluid = jam.System.random(n=32, dim=3, seed=1)
     assert refused(jam.errors.StateError, nj.predictors, fluid)
-    assert refused(jam.errors.ArgumentError, fluid.isoconf, [2, 1])
-    assert refused(jam.errors.ArgumentError, fluid.isoconf, [1], temperature=0)
     assert refused(TypeError, fluid.isoconf, [1], no_such_option=1)
     one = fluid.isoconf([1], runs=2, block=2)
     assert refused(ValueError, one.halves)
@@ -228,29 +212,13 @@ def test_statistics():
     assert nj.clone_distance(a, a) == 0.0
 
 
-def test_checkpoint(packing):
-    packing = packing.copy()
-    options = dict(density_ratio=0.99, block=2)
-    whole = packing.isoconf([2, 10], runs=8, **options)
-    packing.isoconf([2, 10], runs=3, **options)
-    with tempfile.TemporaryDirectory() as folder:
-        file = os.path.join(folder, "state")
-        packing.write_checkpoint(file)
-        again = jam.System.from_checkpoint(file)
-    assert nj.take_runs(again).runs == 3
-    rest = again.isoconf([2, 10], runs=8, resume=1, **options)
-    assert np.array_equal(rest.total("displacement"), whole.total("displacement"))
-
-
 if __name__ == "__main__":
     packing = jammed()
     test_statistics()
     test_errors()
-    test_masses()
     test_runs(packing)
     test_scenes_are_not_mixed()
     test_campaign(packing)
     test_edges(packing)
     test_monte_carlo(packing)
-    test_checkpoint(packing)
     print("ok")

@@ -108,18 +108,8 @@ class Laws(unittest.TestCase):
     def test_a_list_has_its_shares(self):
         s = jam.sizes("list", 10, curve={1.4: 0.3, 1.0: 0.7})
         self.assertEqual(list(s), [1.0] * 7 + [1.4] * 3)
-        s = jam.sizes("list", 3000, curve=[(1, 0.5), (2, 0.5)], share="volume")
-        self.assertAlmostEqual(np.sum(s[s < 1.5] ** 3) / np.sum(s**3), 0.5, delta=0.002)
-        self.assertEqual(set(s), {1.0, 2.0})
         filled = jam.sizes("list:1=0.5,2=0.5,share=volume", porosity=0.5, box=20.0)
-        self.assertEqual(set(filled), {1.0, 2.0})
-        self.assertLess(abs(np.pi / 6 * np.sum(filled**3) - 4000), np.pi / 6 * 2.0**3)  # whole spheres
-
-    def test_seeds(self):
-        a, b, c = (jam.sizes("lognormal", 30, deviation=0.2, draw="random", seed=k) for k in (1, 1, 2))
-        np.testing.assert_array_equal(a, b)
-        self.assertTrue((a != c).all())
-        np.testing.assert_array_equal(a, jam.sizes("lognormal:deviation=0.2,draw=random", 30))
+        self.assertAlmostEqual(np.sum(filled[filled < 1.5] ** 3) / np.sum(filled**3), 0.5, delta=0.002)
 
 
 class Densities(unittest.TestCase):
@@ -139,28 +129,11 @@ class Densities(unittest.TestCase):
             jam.System.random(20, porosity=0.7, packing_fraction=0.3)
         self.assertEqual(jam.System.random(diameters=[1.0, 2.0, 3.0]).n, 3)
 
-    def test_progress_is_that_of_the_density(self):
-        """The default protocol has a second stage, which a density below the first one's pressure never reaches."""
-        seen = []
-        system = jam.System.random(n=4000, packing_fraction=0.3)
-        low = jam.System.random(50, 3, seed=1).compress(packing_fraction=0.62, pressure=50)
-        self.assertEqual((low.status.name, low.stop_reason.name), ("NOT_CONVERGED", "PRESSURE"))
-        self.assertRegex(low.status_text, "growth ended at pressure .* before the packing fraction 0.62")
-        both = jam.System.random(50, 3, seed=1).compress([(1e-1, 5), (1e-1, 1e4)], packing_fraction=0.5)
-        self.assertEqual((both.status.name, both.stop_reason.name), ("OK", "PACKING_FRACTION"))
-        system.compress(packing_fraction=0.6, progress=lambda p: seen.append(p.fraction))
-        self.assertGreater(max(seen), 0.5)
-
     def test_densities_beyond_reach_are_refused_before_work(self):
-        fluid = jam.System.random(1000)
         with self.assertRaisesRegex(jam.errors.UnplaceableError, r"porosity 0\.3\).* jam near 0\.643 .*Farr and Groot.*0\.384"):
-            fluid.compress(porosity=0.3)
+            jam.System.random(1000).compress(porosity=0.3)
         with self.assertRaisesRegex(jam.errors.UnplaceableError, "libjam"):
             jam.System.random(1000, 2, diameters=[1.0] * 500 + [1.4] * 500).compress(packing_fraction=0.9)
-        with self.assertRaisesRegex(jam.errors.UnplaceableError, "jam near"):
-            jam.System.random(diameters=[1.0] * 50 + [1.4] * 50, packing_fraction=0.8)
-        with self.assertRaisesRegex(jam.errors.UnplaceableError, "jam near"):
-            jam.sizes("lognormal:deviation=0.2", porosity=0.2, box=10.0)
 
     def test_the_estimate_is_that_of_the_paper(self):
         """Farr and Groot give 0.6435 for equal spheres, which their constant was fitted to."""
@@ -185,10 +158,6 @@ class Densities(unittest.TestCase):
             (TypeError, "deviation is given twice", lambda: jam.sizes("normal:deviation=0.1", 5, deviation=0.2)),
             (TypeError, "did you mean", lambda: jam.sizes("normal", 5, deviatoin=0.1)),
             (ValueError, r"shape \(rows, 2\)", lambda: jam.sizes("sieve", 5, curve=[1, 2, 3])),
-            (jam.errors.ArgumentError, "the sieve curve falls", lambda: jam.sizes("sieve", 5, curve=[(1, 0), (2, 60), (3, 50), (4, 100)])),
-            (jam.errors.ArgumentError, "the sieve curve falls", lambda: jam.sizes("sieve", 5, curve=[(1, 0), (2, 60), (3, 50)])),
-            (jam.errors.ArgumentError, "add up to", lambda: jam.sizes("equal", 1000, mean=1.0, box=5.0)),
-            (jam.errors.NonfiniteError, "deviation", lambda: jam.sizes("normal", 5, deviation=np.inf)),
             (jam.errors.ArgumentError, "diameters", lambda: jam.size_report([1.0, -1.0])),
             (jam.errors.NonfiniteError, "diameters", lambda: jam.size_report([1.0, np.nan])),
         ):

@@ -5,6 +5,7 @@ import unittest
 import numpy as np
 
 import jam
+from wall_scenes import contact_rows
 
 
 class Network(unittest.TestCase):
@@ -28,14 +29,9 @@ class Network(unittest.TestCase):
         self.assertIn(0, [n % 2 for n in stable])
 
     def test_hessian_is_the_contact_matrix_squared(self):
-        s, h, c = self.s, self.s.hessian(), self.s.contacts
-        where = np.full(s.n, -1)
-        where[s.hessian_map()] = np.arange(self.r.stable)
-        a = np.zeros((len(c), 2 * self.r.stable))
-        for k, (i, j) in enumerate(c.pairs):
-            a[k, 2 * where[i] : 2 * where[i] + 2] += c.vectors[k]
-            a[k, 2 * where[j] : 2 * where[j] + 2] -= c.vectors[k]
-        np.testing.assert_allclose(h.toarray(), a.T @ a, atol=1e-12)
+        s, c = self.s, self.s.contacts
+        a = contact_rows(s)[0][:, (2 * s.hessian_map()[:, None] + [0, 1]).ravel()]
+        np.testing.assert_allclose(s.hessian().toarray(), a.T @ a, atol=1e-12)
         hard = s.hessian("hard").toarray()
         np.testing.assert_allclose(hard, a.T @ (c.forces[:, None] ** 2 * a), atol=1e-10)
 

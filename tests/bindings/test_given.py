@@ -125,10 +125,6 @@ class Given(unittest.TestCase):
         for call in (lambda **n: make(X, 0.2, **n), lambda **n: jam.System.random(n=10, **n)):
             self.refused(["box and cell"], call, box=2.0, cell=np.eye(3), kind=TypeError)
 
-    def test_six_sides_in_six_dimensions(self):
-        s = jam.System.random(n=10, dim=6, packing_fraction=0.01, box=[1, 1, 1, 1, 1, 2])
-        self.assertEqual(s.cell[5, 5], 2.0)
-
     def test_masked_values(self):
         self.refused(["positions", "1 values are masked"], make, np.ma.array(X, mask=X == 0.7), 0.2)
         self.refused(["diameters", "masked"], make, X, np.ma.array([0.1, 0.2, 0.1], mask=[0, 1, 0]))

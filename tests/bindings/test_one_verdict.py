@@ -168,25 +168,6 @@ class OneVerdict(unittest.TestCase):
 
 
 class Flexes(unittest.TestCase):
-    def test_slow_motions_that_lead_far_are_shown(self):
-        """Square and simple cubic lattices whose spheres are off their sites by noise: rows slide on, though the contacts open slowly
-        at first. In steps along the flex no two spheres come nearer than they were, but for rounding."""
-        for dim, m, noises in ((2, 5, [1e-6]), (3, 3, [1e-6])):
-            sites = np.array(list(itertools.product(range(m), repeat=dim)), float)
-            for noise in noises:
-                x = (sites + noise * np.random.default_rng(101).standard_normal(sites.shape)) % m
-                s = jam.System.from_arrays(x, 1.0, box=float(m), overlap="shrink")
-                self.assertEqual([s.rigidity(kind).jammed for kind in ("collective", "strict")], [Verdict.NO] * 2)
-                self.assertEqual(s.check(crunch=False).jammed, Verdict.NO)
-                x, sizes, cell = state(s)
-                v, wide = s.flex().out, 10 * noise**0.5
-                v *= wide / abs(v).max()
-                for part in np.linspace(0, 1, 21):
-                    y = x + part * v
-                    r = y[:, None] - y[None]
-                    r -= np.diag(cell) * np.round(r / np.diag(cell))
-                    apart = np.linalg.norm(r, axis=2) + 2 * np.eye(s.n)
-                    self.assertGreater((apart / sizes[0]).min(), 1 - 1e-13, (dim, noise, part))
 
     def test_no_pair_that_touches_overlaps_along_them(self):
         """By the squared distance along it: from its gap, a pair loses y t and gains (w t)^2 / 2. Where positions are noisy the

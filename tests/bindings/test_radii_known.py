@@ -154,15 +154,10 @@ class Moments(unittest.TestCase):
         moment = [sum(Fraction(r) ** -6 for r in radii) for radii in (before, s.diameters / 2)]
         self.assertAlmostEqual(float(moment[1] / moment[0] * Fraction(report.value) ** 6 - 1), 0, 13)
 
-    def test_numbering_and_units_do_not_matter(self):
-        n, exponents = 10, (1, 2, 3)
-        s = mixture(n, 2, "xy", 7)
+    def test_units_do_not_matter(self):
+        exponents, s = (1, 2, 3), mixture(10, 2, "xy", 7)
         x, d = s.positions.copy(), s.diameters.copy()
         value = s.maximise_radii(moments=exponents).value
-        order = np.random.default_rng(1).permutation(n)
-        other = jam.System.from_arrays(x[order], diameters=d[order], box=1.0, walls="xy")
-        self.assertLess(abs(other.maximise_radii(moments=exponents).value / value - 1), 1e-12)
-        np.testing.assert_allclose(other.diameters, s.diameters[order], rtol=1e-9)
         for unit in (1e-6, 300.0):
             other = jam.System.from_arrays(unit * x, diameters=unit * d, box=unit, walls="xy")
             self.assertLess(abs(other.maximise_radii(moments=exponents).value / value - 1), 1e-12)
@@ -185,16 +180,3 @@ class Moments(unittest.TestCase):
             s = jam.System.from_arrays([[0.3, 0.3], [0.7, 0.7]], radii=0.2, box=1.0, walls="xy")
             self.assertTrue(s.maximise_radii(moments=(q,)).maximum)
             self.assertLess(abs(np.sort(s.diameters / 2) - radii).max(), 1e-7)
-
-    def test_bounds_are_kept_and_counted(self):
-        for seed in (1, 4):
-            free, s = mixture(30, 2, "", seed), mixture(30, 2, "", seed)
-            before = s.diameters / 2
-            free.maximise_radii(moments=(1, 2))
-            most = 0.97 * free.diameters.max() / 2
-            report = s.maximise_radii(moments=(1, 2), radius_max=most)
-            self.assertTrue(report.maximum)
-            self.assertEqual(int(np.sum(abs(s.diameters / 2 - most) < 1e-14)), report.at_bounds)
-            self.assertLessEqual(s.diameters.max() / 2, most)
-            for q in (1, 2):
-                self.assertLess(abs(((s.diameters / 2) ** q).sum() / (before**q).sum() / report.value**q - 1), 1e-14)

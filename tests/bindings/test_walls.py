@@ -55,20 +55,12 @@ class Scenes(unittest.TestCase):
         rows = str(w).splitlines()  # a table of few rows prints as such
         self.assertEqual((rows[1].split(), len(rows)), (["axis", "side", "area", "pressure", "gap", "stress"], 4))
 
-    def test_copies_files_and_pickles_keep_the_container(self):
+    def test_pickles_keep_the_container(self):
         s = jam.System.random(n=30, packing_fraction=0.2, container="cylinder", walls="z")
         s.compress(pressure=100)
-        with tempfile.TemporaryDirectory() as folder:
-            name = Path(folder, "can.xyz")
-            s.write(name)
-            text = name.read_text().splitlines()[1]
-            read = jam.System.read(name)
-        self.assertIn('pbc="F F F"', text)
-        self.assertIn('container=cylinder walls="F F T"', text)
-        for t in (read, s.copy(), pickle.loads(pickle.dumps(s))):
-            self.assertEqual((t.info.container, t.info.walls, t.info.volume), (1, 4, s.info.volume))
-            self.assertTrue((t.positions == s.positions).all())
-        self.assertTrue((pickle.loads(pickle.dumps(s)).walls().pressure == s.walls().pressure).all())
+        t = pickle.loads(pickle.dumps(s))
+        self.assertEqual((t.info.container, t.info.walls, t.info.volume), (1, 4, s.info.volume))
+        self.assertTrue((t.walls().pressure == s.walls().pressure).all())
 
     def test_walls_in_titles_and_of_ase(self):
         """Walls without a container are those of a brick; wrong words are refused by their line; ASE writes lists as _JSON."""
@@ -133,17 +125,12 @@ class Scenes(unittest.TestCase):
                     read(bare.replace('walls="F F T"', empty))
 
     def test_walls_that_a_file_does_not_name(self):
-        """Named by the caller, in letters or truth values; said where nobody names them; a file is not overruled."""
+        """Named by the caller, in letters or truth values."""
         s = jam.System.random(n=20, packing_fraction=0.1, walls="z")
         with tempfile.TemporaryDirectory() as folder:
             name = Path(folder, "slit.data")
             s.write(name)
-            text = name.read_text()
-            self.assertEqual(jam.System.read(name).notes, "")
-            with self.assertRaisesRegex(jam.errors.ArgumentError, "close other axes than the file"):
-                jam.System.read(name, walls="x")
-            name.write_text("of another program\n" + text.split("\n", 1)[1])
-            self.assertIn("does not say which directions are periodic", jam.System.read(name).notes)
+            name.write_text("of another program\n" + name.read_text().split("\n", 1)[1])
             for walls in ("z", (False, False, True)):
                 read = jam.System.read(name, walls=walls)
                 self.assertEqual((read.info.walls, read.notes), (4, ""))

@@ -8,20 +8,13 @@ from pathlib import Path
 import jam
 import numpy as np
 from scipy.optimize import linprog
-from wall_scenes import SCENES, start
+from wall_scenes import SCENES, contact_rows, start
 
 
-def strict_rows(s, opening):
-    """Rows n . (u_i - u_j + eps r_ij) of the contacts, with the traceless strains of the axes that repeat."""
-    c, d = s.contacts, s.dim
-    rows = np.zeros((len(c.gaps), s.n * d))
-    for k, ((i, j), v) in enumerate(zip(c.pairs, c.vectors)):
-        rows[k, i * d : i * d + d] += v
-        if j >= 0:
-            rows[k, j * d : j * d + d] -= v
-    x, y = opening
-    length = np.where(c.pairs[:, 1] < 0, 0, s.diameters[c.pairs[:, 0]] / 2 + s.diameters[np.maximum(c.pairs[:, 1], 0)] / 2)
-    a, b = c.vectors[:, x], c.vectors[:, y]
+def strict_rows(s):
+    """Rows n . (u_i - u_j + eps r_ij) of the contacts, with the traceless strains of x and y."""
+    rows, length = contact_rows(s)
+    a, b = s.contacts.vectors.T[:2]
     return np.column_stack([rows, length * (a * a - b * b), length * 2 * a * b])
 
 
@@ -42,7 +35,7 @@ class Strict(unittest.TestCase):
             if not s.crunch().jammed:
                 continue
             strict = s.rigidity("strict")
-            rows = strict_rows(s, (0, 1))
+            rows = strict_rows(s)
             if strict.stable:
                 self.assertEqual(strict.contacts_needed, 3 * strict.stable - 2 + 2 + 1)
             total = linprog(-rows.sum(0), A_ub=-rows, b_ub=np.zeros(len(rows)), bounds=(-1, 1)).fun
@@ -69,23 +62,16 @@ class Elasticity(unittest.TestCase):
             s = jam.System.random(n=60, seed=3, packing_fraction=0.2, diameters=1 + 0.4 * (0.618 * np.arange(60) % 1), **scene)
             self.assertTrue(s.crunch().jammed)
             tensor = s.elastic_tensor().relaxed
-            c, spheres, h = s.contacts, s.hessian_map(), s.hessian().toarray()
-            node = -np.ones(s.n, int)
-            node[spheres] = np.arange(len(spheres))
-            axes = [k for k in range(3) if k not in ((2,) if "walls" in scene else (0, 1))]
-            length = s.diameters[c.pairs[:, 0]] / 2 + s.diameters[np.maximum(c.pairs[:, 1], 0)] / 2
-            rows = np.zeros((len(c.gaps), 3 * len(spheres)))
-            for k, ((i, j), v) in enumerate(zip(c.pairs, c.vectors)):
-                rows[k, 3 * node[i] : 3 * node[i] + 3] += v
-                if j >= 0:
-                    rows[k, 3 * node[j] : 3 * node[j] + 3] -= v
-            np.testing.assert_allclose(rows.T @ rows, h, atol=1e-12)
+            c, axes = s.contacts, [k for k in range(3) if k not in ((2,) if "walls" in scene else (0, 1))]
+            rows, length = contact_rows(s)
+            rows = rows[:, (3 * s.hessian_map()[:, None] + np.arange(3)).ravel()]
+            np.testing.assert_allclose(rows.T @ rows, s.hessian().toarray(), atol=1e-12)
             for a in range(3):
                 for b in range(3):
                     if a not in axes or b not in axes:
                         self.assertTrue(np.isnan(tensor[a, b]).all() and np.isnan(tensor[:, :, a, b]).all())
                         continue
-                    stretch = np.where(c.pairs[:, 1] < 0, 0, length * c.vectors[:, a] * c.vectors[:, b])
+                    stretch = length * c.vectors[:, a] * c.vectors[:, b]
                     left = stretch - rows @ np.linalg.lstsq(rows, stretch, rcond=1e-9)[0]
                     self.assertAlmostEqual(left @ left / s.info.volume / tensor[a, b, a, b], 1, 6)
             if len(axes) == 2:

@@ -37,7 +37,7 @@ def start(name, n, seed, phi=0.15, **more):
 
 def closed_axes(scene, dim):
     kind, letters = scene.get("container"), scene.get("walls", "")
-    return [c for c in range(dim) if "xyz"[c] in letters or kind == "ball" or (kind in ("cylinder", "cone") and c < 2)]
+    return [c for c in range(dim) if "xyzw"[c] in letters or kind == "ball" or (kind in ("cylinder", "cone") and c < 2)]
 
 
 def wall_distances(scene, x, edges):
@@ -111,3 +111,12 @@ def largest_growth(scene, s, x):
     """Factor by which the diameters may be multiplied with the spheres at x."""
     delta, sigma, _, _ = overlaps(scene, x, s)
     return (1 - delta / sigma).min()
+
+
+def contact_rows(s):
+    """Rows n . (u_i - u_j) of the contacts of the network, and the distances of both centres; 0 at walls."""
+    (i, j), v, k = s.contacts.pairs.T, s.contacts.vectors, np.arange(len(s.contacts.pairs))
+    rows, pair = np.zeros((len(k), s.n, s.dim)), j >= 0
+    rows[k, i] = v
+    rows[k[pair], j[pair]] -= v[pair]
+    return rows.reshape(len(k), -1), np.where(pair, s.diameters[i] / 2 + s.diameters[np.maximum(j, 0)] / 2, 0)

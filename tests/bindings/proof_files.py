@@ -136,6 +136,20 @@ def other_side(f, r):
     line[3] = str(1 - int(line[3]))
 
 
+def other_sphere(f, r):
+    line = r.choice(f.at_walls)
+    line[1] = r.choice([str(k) for k in range(len(f.spheres)) if [str(k), *line[2:4]] not in [c[1:4] for c in f.at_walls]])
+
+
+def outside(f, r):
+    """A sphere reflected at the wall that it touches: F is the same."""
+    line = r.choice(f.at_walls)
+    sphere, axis = f.spheres[int(line[1])], int(line[2])
+    edge = value(f.header("cell")[1 + (axis + 1) * (axis + 2) // 2 - 1])
+    x = sum(value(part) for part in sphere[3 + axis].split(","))
+    sphere[3 + axis] = word((2 * edge if line[3] == "1" else 0) - x)
+
+
 def half_force(f, r):
     """A hint: what balances is computed, and lies farther away than the bound of these forces."""
     for line in f.at_walls:
@@ -145,7 +159,95 @@ def half_force(f, r):
 #: Of contacts with flat and round walls
 AT_WALLS = {
     "wall missing": dropped("wall"), "wall twice": doubled("wall"), "pull": force_times(-1, "wall"), "no force": force_times(0, "wall"),
-    "half the force": half_force,
+    "half the force": half_force, "another sphere": other_sphere,
+}  # fmt: skip
+
+
+def walls_elsewhere(f, r):
+    line = f.header("walls")
+    line[1:] = [str(len(f.spheres[0]) - 3)]
+
+
+def leaning(f, r):
+    """The cell vector of the last axis, which has walls, leans."""
+    cell = f.header("cell")
+    cell[-2] = word(Fraction(1, 10**6))
+
+
+def closer_walls(f, r):
+    f.scale(f.header("cell"), -1, Fraction(999, 1000))
+
+
+def through_a_wall(f, r):
+    line = r.choice(f.contacts)
+    line[2 + len(f.spheres[0]) - 3] = "1"
+
+
+def rattler_outside(f, r):
+    sphere = r.choice(f.spheres)
+    far = [word(-2 * value(f.header("cell")[1])), *sphere[4:]]
+    f.lines.append(["sphere", "0", sphere[2], *far])
+
+
+def another_pin(f, r):
+    """A pin in place of a contact: as many equations as unknowns again."""
+    f.lines.remove(r.choice(f.contacts))
+    pin = next(k for k, s in enumerate(f.spheres) if s[1] == "1" and ["pin", str(k), "0"] not in f.lines and k)
+    f.lines.append(["pin", str(pin), "0"])
+
+
+def pinned_rattler(f, r):
+    f.lines.append(["sphere", "0", *f.spheres[0][2:]])
+    f.header("pin")[1] = str(len(f.spheres))
+
+
+def width(edges):
+    def change(f, r):
+        cell, d = f.header("cell"), len(f.spheres[0]) - 3
+        for q in range(min(edges, d)):
+            f.scale(cell, (q + 1) * (q + 2) // 2, Fraction(999, 1000))
+
+    return change
+
+
+def other_axes(f, r):
+    line = f.header("round")
+    line[1] = str(5 - int(line[1]))
+
+
+def inner_side(f, r):
+    r.choice([line for line in f.at_walls if line[2] == str(len(f.spheres[0]) - 3)])[3] = "0"
+
+
+def rattler_at_the_rim(f, r):
+    """Half of it is outside the round wall, far from all others of a file without other spheres there."""
+    edge, d = value(f.header("cell")[1]), len(f.spheres[0]) - 3
+    f.lines.append(["sphere", "0", word(Fraction(1, 2**20)), word(edge), *[word(edge / 2)] * (d - 1)])
+
+
+def wide_rattler(f, r):
+    edge, d = value(f.header("cell")[1]), len(f.spheres[0]) - 3
+    f.lines.append(["sphere", "0", word(2 * edge / value(f.gamma[1].split(",")[0])), *[word(edge / 2)] * d])
+
+
+def larger_g(f, r):
+    f.gamma[1] = word(sum(map(value, f.gamma[1].split(","))) * Fraction(1001, 1000))
+
+
+#: Of files of packings between flat walls, and within a round one
+FLAT = {
+    **AT_WALLS, "another wall": another_wall, "the other side": other_side, "no line walls": dropped("walls"),
+    "line walls of another axis": walls_elsewhere, "line walls twice": doubled("walls"), "leaning": leaning,
+    "walls closer": closer_walls, "contact through a wall": through_a_wall, "outside": outside, "rattler outside": rattler_outside,
+    "centre off by 1e-3": moved(Fraction(1, 1000)),
+}  # fmt: skip
+ROUND = {
+    **AT_WALLS, "pin missing": dropped("pin"), "pin twice": doubled("pin"), "pin in place of a contact": another_pin,
+    "pin of a rattler": pinned_rattler,
+    "narrower": width(3), "not round": width(1), "round about other axes": other_axes, "no line round": dropped("round"),
+    "line round twice": doubled("round"), "gamma for growth": lambda f, r: f.gamma.__setitem__(0, "gamma"), "side 0": inner_side,
+    "rattler at the rim": rattler_at_the_rim, "rattler wider than the wall": wide_rattler, "contact missing": dropped("contact"),
+    "larger g": larger_g, "no growth": dropped("growth"), "centre off by 1e-3": moved(Fraction(1, 1000)),
 }  # fmt: skip
 
 

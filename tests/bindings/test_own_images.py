@@ -66,15 +66,6 @@ class OwnImages(unittest.TestCase):
         np.testing.assert_allclose(t.modes(which="all").values, np.sort(union), atol=1e-12)
         self.assertEqual(len(self.s.tile((1, 3)).contacts), 12)  # own images stay own images
 
-    def test_a_crunch_at_fixed_cell(self):
-        s = jam.System.from_arrays([[0, 0], [0.5, 0.8]], 0.9, cell=np.diag([1, np.sqrt(3)]), dim=2)
-        s.crunch()
-        self.assertEqual(len(s.contacts), 4)
-        with self.assertRaisesRegex(jam.errors.UnsupportedError, "own image"):
-            s.bloch_modes((0.5, 0.5))
-        self.assertIn("own image", s.tile((2, 1)).notes)
-        self.assertEqual(s.tile((1, 2)).report.contacts, 8)
-
     def test_forces_of_a_vertex_are_not_taken(self):
         """Rows apart whose disks are as wide as the cell: an LP that simplex solves gives all force to one of them."""
         for dim, n in ((2, 2), (3, 2), (2, 3)):

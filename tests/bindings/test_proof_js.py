@@ -9,14 +9,13 @@ import subprocess
 import unittest
 
 import numpy as np
-import test_proof_round
 from compiled import compiled
 from proof_files import ROOT, file_of, jamproof
 from test_proof import packing
 from test_proof_bounds import fcc, square_lattice
 from test_proof_checker import flower
 from test_proof_strict import angles_of_tiles_in_a_free_cell, packed
-from test_proof_walls import SCENES, isostatic
+from test_proof_walls import SCENES, isostatic, ring
 
 import jam
 from packings import InFolder
@@ -80,9 +79,8 @@ def made():
     """Kinds that the set has not: strict, with implied contacts, and crystals that close exactly."""
     systems = (packed(32, 2, seed) for seed in range(1, 60))
     exact = next(s for s in systems if s.report.jammed and s.prove(strict=True).theorem == jam.Theorem.EXACT)
-    scenes = {**SCENES, **test_proof_round.SCENES}
-    between = [file_of(*isostatic(scenes[name], (1, 2, 3))[0]) for name in ("box", "slit", "circle", "ball", "can")]
-    between.append(file_of(test_proof_round.ring(6, loose=1), np.ones(7)))  # trapped
+    between = [file_of(*isostatic(SCENES[name], (1, 2, 3))[0]) for name in ("box", "slit", "circle", "ball", "can")]
+    between.append(file_of(ring(6, loose=1), np.ones(7)))  # trapped
     return [file_of(exact, strict=True), flower(), "\n".join(fcc()) + "\n", square_lattice(), angles_of_tiles_in_a_free_cell(), *between]
 
 

@@ -9,10 +9,9 @@ from fractions import Fraction
 
 import numpy as np
 from proof_files import (
-    AT_WALLS, ROOT, File, another_wall, doubled, dropped, jamproof, moved, other_image, other_side, resized, scene_of, try_changes, value,
-    verdict, word,
+    AT_WALLS, ROOT, File, another_wall, doubled, dropped, jamproof, moved, other_image, other_side, outside, resized, scene_of, try_changes,
+    value, verdict, word,
 )  # fmt: skip
-from test_proof_walls import outside
 
 import jam
 import jam.radii

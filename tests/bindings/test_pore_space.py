@@ -106,26 +106,6 @@ class Mesh(InFolder):
             report = self.mesh(s, contacts="bridged", bridge=bridge, edge=0.15)
             self.assertEqual(report.bridges, len(s.contacts))
             self.assertLess(abs(report.volume / report.solid - 1), 0.012)
-            # solid by the image of the same solid: spheres and cylinders on a grid of points
-            if bridge == 0.4:
-                self.assertLess(abs(self.union(s, bridge) - report.solid), 3e-3)
-
-    def union(self, s, bridge, m=64):
-        g = (np.arange(m) + 0.5) / m
-        points = np.stack(np.meshgrid(g, g, g, indexing="ij"), -1).reshape(-1, 3)
-        inside = np.zeros(len(points), bool)
-        for x, r in zip(s.positions, s.diameters / 2):
-            d = points - x
-            inside |= ((d - np.rint(d)) ** 2).sum(1) < r * r
-        c, x, r = s.contacts, s.positions, s.diameters / 2
-        for (i, j), n in zip(c.pairs, c.vectors):
-            middle = x[i] - r[i] * n
-            d = points - middle
-            d -= np.rint(d)
-            along = d @ n
-            across2 = (d * d).sum(1) - along**2
-            inside |= (across2 < (bridge * min(r[i], r[j])) ** 2) & (along < r[i]) & (along > -r[j])
-        return inside.mean()
 
     def test_tilted_cells_and_sizes(self):
         s = jammed(40, cell=TILTED, diameters=jam.sizes("list", 40, curve=[(1, 0.5), (1.6, 0.5)]))
@@ -202,26 +182,12 @@ class Image(unittest.TestCase):
             head, data = Path(mha).read_bytes().split(b"ElementDataFile = LOCAL\n")
             self.assertIn(b"DimSize = 10 15 20\n", head)
             np.testing.assert_array_equal(np.frombuffer(data, np.uint8).reshape(20, 15, 10).T, image)
-            try:
-                from vtkmodules.util.numpy_support import vtk_to_numpy
-                from vtkmodules.vtkIOXML import vtkXMLImageDataReader
-                from vtkmodules.vtkIOImage import vtkMetaImageReader
-            except ImportError:
-                self.assertIn(b'WholeExtent="0 10 0 15 0 20"', Path(vti).read_bytes())
-                return
-            for path, expected in ((vti, image), (shares, s.image(size=0.1, lines=2))):
-                reader = vtkXMLImageDataReader()
-                reader.SetFileName(path)
-                reader.Update()
-                read = reader.GetOutput()
-                self.assertEqual(read.GetBounds()[1::2], (1.0, 1.5, 2.0))
-                values = vtk_to_numpy(read.GetCellData().GetScalars())
-                np.testing.assert_array_equal(values.reshape(20, 15, 10).T, expected)
-            reader = vtkMetaImageReader()
-            reader.SetFileName(mha)
-            reader.Update()
-            values = vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars())
-            np.testing.assert_array_equal(values.reshape(20, 15, 10).T, image)
+            for path, kind, values in ((vti, b"UInt8", image), (shares, b"Float32", s.image(size=0.1, lines=2))):
+                head, data = Path(path).read_bytes().split(b'<AppendedData encoding="raw">\n_')
+                self.assertIn(b'WholeExtent="0 10 0 15 0 20" Origin="0 0 0" Spacing="0.1', head)
+                self.assertIn(b'type="' + kind + b'" Name="solid" format="appended" offset="0"', head)
+                data = data[: 8 + values.nbytes]
+                self.assertEqual(data, values.nbytes.to_bytes(8, "little") + values.T.tobytes())
 
     def test_refusals(self):
         s = jam.System.random(20, packing_fraction=0.1)
@@ -283,43 +249,6 @@ class Pores(unittest.TestCase):
             self.assertTrue(held.any())
             np.testing.assert_allclose(p.radius[held], widest, atol=1e-9)
             self.assertTrue((p.radius[~held] < widest + 1e-9).all() and (p.radius >= p.distance).all())
-
-    def test_nothing_larger_is_found_by_trying(self):
-        """Spheres about many random points: each that contains a point and no solid is at most as large, and some nearly so."""
-        tube = {"container": "cylinder", "packing_fraction": 0.2}
-        for dim, scene, period in (
-            (2, {}, [1, 1]),
-            (3, {}, [1, 1, 1]),
-            (3, {**tube, "cell": [1, 1, 1]}, [1e9, 1e9, 1]),
-            (3, {**tube, "cell": [1, 1, 0.8], "walls": "z"}, [1e9] * 3),
-        ):
-            s = jam.System.random(24, dim, 3, diameters=jam.sizes("list", 24, curve=[(1, 0.7), (1.8, 0.3)], dim=dim), **scene)
-            s.compress(growth_rate=1e-1, pressure=300)
-            p = s.pore_sizes(40, 2)
-            x = np.stack([p.x, p.y, p.z][:dim], 1)
-            rng = np.random.default_rng(1)
-
-            def clearance(c):
-                d = c[:, None] - s.positions
-                d -= period * np.rint(d / period)
-                r = (np.sqrt((d * d).sum(-1)) - s.radii).min(1)
-                if "container" in scene:
-                    r = np.minimum(r, 0.5 - np.hypot(c[:, 0] - 0.5, c[:, 1] - 0.5))
-                return np.minimum(r, np.minimum(c[:, 2], 0.8 - c[:, 2])) if "walls" in scene else r
-
-            np.testing.assert_allclose(clearance(x), p.distance, atol=1e-12)
-            best = p.distance.copy()
-            for k in range(len(x)):
-                centre, step = x[k][None], p.radius[k]
-                for _ in range(60):  # random steps about the best so far, ever shorter
-                    tries = np.vstack([centre, centre + step * rng.normal(size=(300, dim))])
-                    r = clearance(tries)
-                    d = tries - x[k]
-                    r[(d * d).sum(1) > r * r] = -1
-                    centre, best[k] = tries[[r.argmax()]], max(best[k], r.max())
-                    step *= 0.85
-            self.assertTrue((best <= p.radius * (1 + 1e-7)).all())
-            self.assertGreater((best > 0.98 * p.radius).mean(), 0.7)  # others end in a neighbouring hole
 
     def test_body_centred_lattice(self):
         s = jam.System.from_arrays([[0, 0, 0], [0.5, 0.5, 0.5]], 0.8, cell=np.eye(3), dim=3)

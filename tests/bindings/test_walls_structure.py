@@ -1,10 +1,11 @@
 """g(r), S(q), Voronoi cells and pore sizes between walls, against sampling, sums and grids."""
+import itertools
 import unittest
 
 import jam
 import numpy as np
 from numpy.random import default_rng
-from wall_scenes import NARROW, away, wall_distances
+from wall_scenes import NARROW, away, closed_axes, wall_distances
 
 
 def depth(name, s, x):
@@ -104,23 +105,23 @@ class Voronoi(unittest.TestCase):
 class PoreSizes(unittest.TestCase):
     def test_radii_lie_between_bounds_of_a_grid(self):
         # The clearance of points changes by no more than their distance, so a grid bounds the largest sphere about a point.
-        for name in ("slit", "duct", "box", "ball", "lines", "square", "circle"):
-            for n in (1, 2, 12):
-                s = start(name, n, 7, packing_fraction=0.12 if n == 12 else 0.05)
-                d, edge = s.dim, np.diag(s.cell)
-                pores = s.pore_sizes(12, 3)
-                count = [int(np.ceil(e * (300 if d == 2 else 50))) for e in edge]
-                grid = np.stack(np.meshgrid(*[(np.arange(k) + 0.5) / k * e for k, e in zip(count, edge)], indexing="ij"), -1).reshape(-1, d)
-                step = np.linalg.norm(edge / count) / 2
-                clear = depth(name, s, grid)
-                for x, a in zip(s.positions, s.diameters / 2):
-                    clear = np.minimum(clear, np.linalg.norm(away(NARROW[name], s, grid - x), axis=1) - a)
-                grid, clear = grid[clear > -step], clear[clear > -step]
-                for x, y, z, near, radius in zip(pores.x, pores.y, pores.z, pores.distance, pores.radius):
-                    r = np.linalg.norm(away(NARROW[name], s, grid - np.array([x, y, z])[:d]), axis=1)
-                    self.assertGreaterEqual(radius, near)
-                    self.assertGreaterEqual(radius, clear[r <= clear].max(initial=0) - 1e-9, (name, n))
-                    self.assertLessEqual(radius, (clear + step)[r <= clear + 2 * step].max() + 1e-9, (name, n))
+        for scene, n in itertools.product((*NARROW.values(), {"dim": 2}, {"dim": 3}), (1, 2, 12)):
+            sizes = np.where(np.arange(n) % 2, 1, 1.6)
+            s = jam.System.random(n=n, seed=7, packing_fraction=0.12 if n == 12 else 0.05, diameters=sizes, **scene)
+            d, edge = s.dim, np.diag(s.cell)
+            pores = s.pore_sizes(12, 3)
+            count = [int(np.ceil(e * (300 if d == 2 else 50))) for e in edge]
+            grid = np.stack(np.meshgrid(*[(np.arange(k) + 0.5) / k * e for k, e in zip(count, edge)], indexing="ij"), -1).reshape(-1, d)
+            step = np.linalg.norm(edge / count) / 2
+            clear = wall_distances(scene, grid, edge)[0].min(1) if closed_axes(scene, d) else np.full(len(grid), np.inf)
+            for x, a in zip(s.positions, s.diameters / 2):
+                clear = np.minimum(clear, np.linalg.norm(away(scene, s, grid - x), axis=1) - a)
+            grid, clear = grid[clear > -step], clear[clear > -step]
+            for x, y, z, near, radius in zip(pores.x, pores.y, pores.z, pores.distance, pores.radius):
+                r = np.linalg.norm(away(scene, s, grid - np.array([x, y, z])[:d]), axis=1)
+                self.assertGreaterEqual(radius, near)
+                self.assertGreaterEqual(radius, clear[r <= clear].max(initial=0) - 1e-9, (scene, n))
+                self.assertLessEqual(radius, (clear + step)[r <= clear + 2 * step].max() + 1e-9, (scene, n))
 
     def test_the_widest_pore_of_a_box_touches_walls_alone(self):
         s = jam.System.from_arrays([[0.1, 0.1, 0.9]], 0.1, cell=[1, 1.1, 1.2], walls="xyz")

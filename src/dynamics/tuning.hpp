@@ -60,7 +60,7 @@ struct CalendarTuning {
 };
 
 // ---- event-driven: loads ahead of their use. How many buckets (mean times between events) ahead;
-// tests/bench/md_race shows what it is worth. Below `smallest` spheres all stays in the cache.
+// tests/bench/builds.py shows what it is worth. Below `smallest` spheres all stays in the cache.
 struct LookAhead {
   static constexpr int32_t smallest = 8192, events = 48, bodies = 24, neighbours = 10;
 };

@@ -39,16 +39,22 @@ const char *layout_of(const options *o) {
   return text;
 }
 
-/* What reading assumed may be why spheres overlap: a box of side 1 for a file without one. */
-static void complain_assumptions(const options *o) {
+static jam_create_options create_options(const options *o, int32_t overlap) {
   jam_create_options create;
-  jam_system *sys = NULL;
   jam_create_options_init(&create, sizeof create);
   create.box = o->box;
   create.frame = o->frame;
+  create.non_additivity = o->non_additivity;
   create.container = (int32_t)o->container;
-  create.walls = (int32_t)o->walls;
-  create.overlap = JAM_OVERLAP_ALLOW;
+  create.walls = (int32_t)o->walls; /* the words of the table stand in the order of the bits */
+  create.overlap = overlap;
+  return create;
+}
+
+/* What reading assumed may be why spheres overlap: a box of side 1 for a file without one. */
+static void complain_assumptions(const options *o) {
+  const jam_create_options create = create_options(o, JAM_OVERLAP_ALLOW);
+  jam_system *sys = NULL;
   if (jam_read_as(o->input, layout_of(o), &create, stop_if_asked, NULL, &sys) >= 0 && sys) complain_notes(sys);
   jam_destroy(sys);
 }
@@ -107,20 +113,14 @@ static jam_status create_start(const options *o, jam_create_options *create, con
 }
 
 int start(const options *o, jam_progress_fn stop, jam_system **sys) {
-  jam_create_options create;
+  jam_create_options create = create_options(o, o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE);
   jam_start from = {.struct_size = sizeof from};
   double *diameters = NULL, cell[JAM_MAX_DIM * JAM_MAX_DIM];
-  jam_status status = jam_create_options_init(&create, sizeof create);
+  jam_status status = JAM_OK;
   create.seed = o->seed;
-  create.box = o->box;
-  create.overlap = o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE;
   create.shrink_min = o->shrink_min;
-  create.frame = o->frame;
   create.model = (int32_t)o->model;
   create.mk_zeta = o->zeta;
-  create.non_additivity = o->non_additivity;
-  create.container = (int32_t)o->container;
-  create.walls = (int32_t)o->walls; /* the words of the table stand in the order of the bits */
   if (o->resume)
     status = jam_read_checkpoint(o->resume, stop, NULL, sys);
   else if (is_host_format(o, o->input)) {
@@ -155,14 +155,8 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
 }
 
 int read_as_it_is(const options *o, jam_system **sys) {
-  jam_create_options create;
-  jam_status status = jam_create_options_init(&create, sizeof create);
-  create.box = o->box;
-  create.frame = o->frame;
-  create.non_additivity = o->non_additivity;
-  create.container = (int32_t)o->container;
-  create.walls = (int32_t)o->walls;
-  create.overlap = JAM_OVERLAP_ALLOW;
+  const jam_create_options create = create_options(o, JAM_OVERLAP_ALLOW);
+  jam_status status = JAM_OK;
   if (!is_host_format(o, o->input))
     status = jam_read_as(o->input, layout_of(o), &create, stop_if_asked, NULL, sys);
   else if (o->given.host->read(o->input, &create, o->given.host->user, sys))

@@ -5,6 +5,7 @@ System.write and System.write_contacts write most of them by the ending of the n
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +14,6 @@ from . import raw
 from ._api.arrays import Array
 from ._api.calls import not_cancelled
 from ._api.results import Modes
-from ._api.given import refuse_unstored
 from ._api.shown import only
 from ._formats import ase, gsd
 from ._formats.replacing import replacing
@@ -74,14 +74,6 @@ def half_bonds(system: System) -> tuple[Array, Array]:
     return ends, np.tile(np.arange(len(c)), 2)
 
 
-def _kinds(system: System) -> Array | None:
-    """0 rattler, 1 buckler, 2 other; None before crunch."""
-    try:
-        return np.where(system.rattlers, 0, np.where(system.bucklers, 1, 2))
-    except StateError:
-        return None
-
-
 def write_vtk(system: System, path: str | os.PathLike[str]) -> None:
     """The spheres as .vtp points with diameter, contacts and kind (0 rattler, 1 buckler, 2 other).
 
@@ -106,7 +98,7 @@ def write_csv(system: System, path: str | os.PathLike[str]) -> None:
     """One line per sphere: coordinates, diameter and, after crunch, contacts."""
     system = system.copy()  # of one moment
     columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
-    if _kinds(system) is not None:
+    with suppress(StateError):  # there is no network before a crunch
         columns, names = columns + [system.coordination[:, None]], names + ["contacts"]
     with replacing(path, "w") as file:
         np.savetxt(file, np.hstack(columns), fmt="%.17g", delimiter=",", header=",".join(names), comments="")
@@ -141,9 +133,7 @@ def write_structure_csv(system: System, path: str | os.PathLike[str]) -> None:
 
 def write_gsd(system: System, path: str | os.PathLike[str]) -> None:
     """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `read_gsd` prefers."""
-    system = system.copy()  # of one moment
-    refuse_unstored(system, "GSD")
-    gsd.write(path, system.positions, system.diameters, system.cell)
+    gsd.write(path, system)
 
 
 def read_gsd(

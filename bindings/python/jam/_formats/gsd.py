@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .._api.arrays import Array
-from .._api.given import sizes_of
+from .._api.given import refuse_unstored, sizes_of
 from .frames import bad, box_of, from_corner, in_range, notes_of, plane, refuse_cell, say_outside, say_unread
 from .replacing import open_regular, replacing
 
@@ -30,10 +30,13 @@ class Doubles(NamedTuple):
     cell: Array
 
 
-def write(path: str | os.PathLike[str], positions: Array, diameters: Array, cell: Array) -> None:
+def write(path: str | os.PathLike[str], system: Any) -> None:
     """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `arguments` prefers."""
+    system = system.copy()  # of one moment
+    refuse_unstored(system, "GSD")
     import gsd.hoomd
 
+    positions, diameters, cell = system.positions, system.diameters, system.cell
     if len(cell) > 3:
         raise ValueError(f"GSD has two or three dimensions, this packing has d = {len(cell)}")
     frame = gsd.hoomd.Snapshot()

@@ -11,7 +11,6 @@ import numpy as np
 
 from .. import raw
 from .._api.arrays import as_array
-from .._api.given import refuse_unstored
 from .._api.options import as_enum
 from .._api.results import Modes
 from .._formats import gsd
@@ -47,9 +46,7 @@ class Writing(State, Network):
         if format == "auto" and name.endswith(".gsd"):
             if scale != 1.0 or density != 1.0:
                 raise ValueError("GSD files are written without scale and density")
-            still = self.copy()
-            refuse_unstored(still, "GSD")
-            return gsd.write(name, still.positions, still.diameters, still.cell)
+            return gsd.write(name, self)
         self._done(lambda: raw.jam_write_scaled(self.handle, name, as_enum(format, "Format", "format"), float(scale), float(density)))
 
     def write_contacts(self, path: str | os.PathLike[str], format: int | str = "auto") -> None:

@@ -2,8 +2,7 @@
 """Do curves of decorrelation collapse with one exponent? The exponent of neighbouring densities or temperatures against K.
 
 usage: near_jamming_exponents.py FOLDER PICTURE.png [--large] [--runs RUNS] [--mc-runs RUNS]
-Uses the runs of near_jamming_md.py and near_jamming_monte_carlo.py in FOLDER and makes those that are missing.
-Needs jam, numpy, scipy, matplotlib. Prints a table.
+Uses the runs in FOLDER and makes those that are missing. Needs jam, numpy, scipy, matplotlib. Prints tables.
 
 At a value of K, two curves of K against the MSD lie at two MSDs. Their ratio is the ratio of the controls (phi_J - phi or T)
 to the power nu. One exponent for all K and all pairs is what a collapse asks for. Source: R. Diaz Hernandez Rojas, PhD thesis
@@ -58,6 +57,12 @@ def main():
     packing = common.make_packing(1)
     structure, ratios = nj.predictors(packing), common.RATIOS
     near = [common.md_runs(packing, args.folder, 1, q, args.runs) for q in ratios]
+    print("| densities | K | nu for C | nu for S |\n|---|---|---|---|")
+    for least, between in ((0.96, None), (0.98, (0.6, 0.8)), (0.99, (0.6, 0.8))):
+        some = [k for k, q in enumerate(ratios) if q >= least]
+        control = [1 - ratios[k] for k in some]
+        found = [nj.collapse_exponent([near[k] for k in some], structure, control, kind, 10, between) for kind in "cs"]
+        print(f"| {least} to 0.999 | {between or 'all'} | " + " | ".join(f"{e.value:.3f}({e.error:.3f})" for e in found) + " |")
     figure, axes = plt.subplots(2, 4, figsize=(15, 7))
     print("| | pair | " + " | ".join(f"K {low:.1f} .. {high:.1f}" for low, high in BANDS[::2]) + " | thesis |")
     print("|---" * (3 + len(BANDS[::2])) + "|")
@@ -65,7 +70,7 @@ def main():
         name = "C" if kind == "c" else "S"
         show(axes[row, 0], f"MD, {name}", ratios, near, [1 - q for q in ratios], structure, kind, MD_EXPONENTS[kind])
         for column, (alpha, temperatures) in enumerate(common.TEMPERATURES.items(), 1):
-            hot = [common.mc_runs(packing, args.folder, 1, alpha, t, args.large, args.mc_runs) for t in temperatures]
+            hot = [common.mc_runs(packing, args.folder, 1, alpha, t, args.mc_runs) for t in temperatures]
             labels = [f"{t:.3g}" for t in temperatures]
             thesis = MC_EXPONENTS[alpha][kind]
             show(axes[row, column], f"MC, alpha {alpha}, {name}", labels, hot, temperatures, structure, kind, thesis)

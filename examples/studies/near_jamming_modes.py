@@ -2,8 +2,7 @@
 """Do a few soft modes explain the motion near jamming? Mean displacements against the modes of two Hessians.
 
 usage: near_jamming_modes.py FOLDER PICTURE.png [--large] [--runs RUNS] [--result FILE.json#NAME]
-Default: N = 256, 200 runs at phi/phi_J = 0.995. --large: N = 1024, 5000 runs, those of near_jamming_md.py --large when FOLDER
-is the same. Runs are saved in FOLDER.
+Default: N = 256, 200 runs at phi/phi_J = 0.995. --large: N = 1024, 5000 runs. Runs are saved in FOLDER.
 Needs jam, numpy, scipy, matplotlib. Prints a table.
 
 Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3. u is the mean displacement of the stable spheres, |u| = 1, v_n a
@@ -36,7 +35,7 @@ def ranks(columns):
     return r / np.linalg.norm(r, axis=0)
 
 
-def draw(axes, stiffness, omega, modes, u_v, k, curved, tau):
+def draw(axes, modes, u_v, k, curved, tau):
     """One time: |u.v| and |K[u, v]| of each mode with their root mean squares, |u.v| against participation, curvature."""
     size = max(1, len(u_v) // 60)
     whole = len(u_v) // size * size
@@ -92,7 +91,7 @@ def main():
             u_v, k, curved = weights.projections[m], every[m], weights.curvature[m]
             rows.append(row(stiffness, tau, omega, u_v, k, curved))
             print("| " + " | ".join(map(str, rows[-1])) + " |", flush=True)
-            draw(line, stiffness, omega, modes, u_v, k, curved, tau)
+            draw(line, modes, u_v, k, curved, tau)
         finish(line, stiffness, omega, stable.size)
     common.save(figure, args.picture)
     if args.result:

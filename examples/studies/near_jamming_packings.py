@@ -3,7 +3,7 @@
 
 usage: near_jamming_packings.py FOLDER PICTURE.png [--large] [--runs RUNS]
 Packings: seeds 1 and 2 by growth; seed 1 by sequential linear programs from random spheres, as published. 0.99, 0.995, 0.999.
-Runs are saved in FOLDER, those of near_jamming_md.py among them. Needs jam, numpy, scipy, matplotlib. Prints a table.
+Runs are saved in FOLDER. Needs jam, numpy, scipy, matplotlib. Prints a table.
 
 A packing is a sample of spheres: its error of K comes from resampling spheres, that of the runs from resampling runs.
 Expected: the same curves within these errors. Source: R. Diaz Hernandez Rojas, PhD thesis (Sapienza 2021), chapter 3.

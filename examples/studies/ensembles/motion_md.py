@@ -6,7 +6,7 @@ usage: motion_md.py [--large] [--n N] [--runs RUNS] [--long-runs RUNS] [--folder
 Packings as published: N = 1024, sequential LPs from random spheres, seeds 1 and 2. Runs from one packing with other velocities, its
 diameters reduced to phi / phi_J = 0.96 to 0.999. tau is the number of collisions over N, as in the thesis. Small: 100 runs, and
 5 that are 100 times as long, as published. Large: 5000 and 1000; of the second packing 500.
-Runs are kept in the folder, as those of ../near_jamming_md.py.
+Runs are kept in the folder.
 """
 import sys
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import api_layers
 import call_examples
+import figures
 import filter as header_filter
 
 SHOWN = ("README.md", "CHANGELOG.md", "LICENSE", "bindings", "examples", "include", "src", "tests")
@@ -148,6 +149,11 @@ def main():
     (source / "api" / "cpp.md").write_text(
         "# C++\n\nThe header `jam/jam.hpp` needs C++17 and nothing but `jam.h`.\n\n"
         "```{doxygennamespace} jam\n:members:\n:undoc-members:\n:content-only:\n```\n"
+    )
+    values = figures.read(f"{root}/examples/studies/thesis.py#thesis_values")
+    (source / "api" / "thesis_values.md").write_text(
+        "# Values of the thesis\n\nPublished values and ours of [each figure](/examples/studies/thesis.md), which explains the symbols.\n\n"
+        + "\n".join(figures.table([(values, None)], []))
     )
     # the package as a build puts it together; conf.py imports it
     for part in (root / "bindings/python/jam", generated / "python/jam"):

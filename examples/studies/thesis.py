@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Every own figure and table of the thesis in its order: picture, command, statistics there and here, values, verdict.
 
-usage: thesis.py 2.15 3.3 ...    prints the commands of these figures, small ones and those that made the values; all: of every figure
+usage: thesis.py 2.15 3.3 ...    prints the commands of these figures, small ones and those that made the values, and the values; all: of
+                                 every figure
 
-bindings/docs/figures.py writes the tables of made() into the page.
+bindings/docs/figures.py writes the lists of made() into the page, bindings/docs/site.py the values into a page of the site.
 
 thesis.json lists what each figure shows and which rows of results.json and ensembles/results.json belong to it; no value of ours
 stands there. `says` is what the page calls a value whose row has a shorter name. Verdicts: `reproduced`: the same size and comparable statistics, values agree; `smaller`: all panels, fewer or smaller
@@ -149,7 +150,7 @@ def made():
 
 
 def printed(wanted):
-    """The commands of the figures wanted, one a line."""
+    """The commands of the figures wanted, one a line, and their values: published, ours, errors between."""
     entries = json.loads((HERE / "thesis.json").read_text(encoding="utf-8"))
     unknown = set(wanted) - {e["figure"] for e in entries} - {"all"}
     if unknown:
@@ -158,6 +159,8 @@ def printed(wanted):
         if entry["figure"] in wanted or "all" in wanted:
             for large, small in commands(entry).items():
                 print(f"{entry['figure']}\tsmall\t{runnable(small)}\n{entry['figure']}\tlarge\t{runnable(large)}")
+            for line in row(entry)[1]:
+                print(line[0], "value", *line[1:], sep="\t")
 
 
 if __name__ == "__main__":

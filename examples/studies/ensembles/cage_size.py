@@ -9,12 +9,11 @@ instants, over spheres that are no rattlers, in unit of the mean diameter square
 misses the slow modes, whose period in collisions grows with p: it gives a steeper law.
 Small: N = 256, two packings, windows to 3000. Large: N = 1024, six packings, windows to 1e5. Each run is kept when done.
 """
-import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, mean_error, options, seeded
-from landscape import KAPPA_MF, grown
+from landscape import grown
 
-INSTANTS = 40
+INSTANTS, KAPPA_MF = 40, 1.4157
 
 
 def windows(n, seed, pressure, lengths):
@@ -51,29 +50,11 @@ def main():
         made.append(runs)
     x = np.log([[run["pressure"] for run in runs] for runs in made])
     y = np.log([[run["size"] for run in runs] for runs in made])
-    figure, axis = plt.subplots(figsize=(6, 4.5))
     for k, length in enumerate(lengths):
         powers = [np.polyfit(x[:, s], y[:, s, k], 1)[0] for s in range(seeds)]
         text = f"power of p in the size of cages, N = {n}, p = 1e3 to 1e6, windows of {length:g} collisions"
         r.add("7", text, -KAPPA_MF, *mean_error(powers))
-        error = y[:, :, k].std(axis=1, ddof=1) / seeds**0.5
-        axis.errorbar(
-            np.exp(x.mean(axis=1)),
-            np.exp(y[:, :, k].mean(axis=1) + KAPPA_MF * x.mean(axis=1)),
-            fmt="o-",
-            yerr=np.exp(y[:, :, k].mean(axis=1) + KAPPA_MF * x.mean(axis=1)) * error,
-            ms=4,
-            label=f"{length:g}",
-        )
-    axis.set(
-        xscale="log",
-        yscale="log",
-        xlabel="p",
-        ylabel="size of cages times p^1.4157",
-        title="collisions a sphere in a window",
-    )
-    axis.legend(fontsize=8)
-    r.write(figure)
+    r.write()
 
 
 if __name__ == "__main__":

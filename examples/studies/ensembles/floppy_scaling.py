@@ -3,14 +3,13 @@
 
 usage: floppy_scaling.py [--large] [--folder DIR] [--only-read]
 
-Opening a contact by s (in mean diameters) gives one mode dr: b is its median displacement over |dr|, m the median displacement over s,
-W = f / m, s_plus the opening at which the next contact forms (s_dagger of the thesis). s_return is s* of the thesis, where p dV
+Opening a contact by s (in mean diameters) gives one mode: m is its median displacement over s, W = f / m,
+s_plus the opening at which the next contact forms (s_dagger of the thesis). s_return is s* of the thesis, where p dV
 returns to zero (twice s_star): a contact is stable if Sigma = s_return / s_plus > 1.
 Expected: f_min ~ N^(-1/(1+theta)), s_plus ~ N^(-1/(1-gamma)) / m, pdf(W) ~ W^theta_e.
 """
 import sys
 
-import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, HERE, THETA_E, Results, arguments, ensemble, mean_error
 from finite_size import MAX_ORDER, protocol
@@ -37,16 +36,15 @@ def main():
     o = p.parse_args()
     r = Results(o, "floppy_scaling")
     found, weights = {}, {}
-    figure, axes = plt.subplots(1, 3, figsize=(13, 4))
     for n in o.sizes or ((256, 512, 1024) if o.large else (200, 400)):
         e = ensemble(o, protocol("euclid", n, floppy_modes={}), round(o.particles / n) if o.large else 3200 // n)
-        rows, w, all_b = [], [], []
+        rows, w = [], []
         for entry in e:
             if not entry.row["jammed"] or entry.row["excess_contacts"] or entry.row["crystal_score"] > MAX_ORDER:
                 continue
             modes, f, pairs, z, sigma = entry.read("floppy_modes", "forces", "pairs", "coordination", "diameters")
             local = (z[pairs] == 4).any(axis=1)
-            b, s, index = modes["median"], modes["s_plus"] / sigma.mean(), modes["s_return"] / modes["s_plus"]
+            s, index = modes["s_plus"] / sigma.mean(), modes["s_return"] / modes["s_plus"]
             m = f / modes["weight"]  # median displacement over the opening
             use = ~local & (s > 0) & np.isfinite(s)
             rows.append(
@@ -59,14 +57,9 @@ def main():
             )
             scaled = modes["weight"][~local]
             w.append(scaled / scaled.mean())
-            all_b.append(b * np.sqrt(n))
         if len(rows) < 4:
             continue
         found[n], weights[n] = np.array(rows), w
-        pool = np.sort(np.concatenate(all_b))
-        axes[0].loglog(pool, np.arange(1, len(pool) + 1) / len(pool), label=f"N = {n}")
-        pool = np.sort(np.concatenate(w))
-        axes[1].loglog(pool, np.arange(1, len(pool) + 1) / len(pool))
     if len(found) < 2:
         sys.exit("two sizes with 4 packings each are needed")
     expected = {
@@ -77,16 +70,8 @@ def main():
     for k, (name, law) in enumerate(expected.items()):
         values = {n: mean_error(np.log(a[:, k])) for n, a in found.items()}  # packings scatter by factors of three
         power, error = slope(found, values)
-        published = round(law, 4)
-        r.add(
-            "9",
-            f"power of N of {name} ({'median' if k < 2 else 'least'} of a packing, mean of its logarithm)",
-            published,
-            power,
-            error,
-        )
-        n, y = np.array(sorted(values)), np.exp([values[m][0] for m in sorted(values)])
-        axes[2].loglog(n, y / y[0], "o-", label=f"{name}: {power:.2f}({error:.2f}), law {published:.2f}")
+        text = f"power of N of {name} ({'median' if k < 2 else 'least'} of a packing, mean of its logarithm)"
+        r.add("9", text, round(law, 4), power, error)
     largest = max(found)
     share, error = mean_error(found[largest][:, 3])
     r.add("9", f"share of contacts with Sigma = s_return / s_plus > 1, N = {largest}", "stable: all", share, error)
@@ -95,11 +80,7 @@ def main():
         r.add("9", f"exponent of W of extended modes, N = {largest}", THETA_E, law.value, law.error)
     except ValueError as problem:
         print(problem)
-    for axis, x, y in zip(axes, ("b sqrt(N)", "W / mean", "N"), ("cdf", "cdf", "relative to the smallest N")):
-        axis.set(xlabel=x, ylabel=y)
-    axes[0].legend(fontsize=8)
-    axes[2].legend(fontsize=8)
-    r.write(figure)
+    r.write()
 
 
 if __name__ == "__main__":

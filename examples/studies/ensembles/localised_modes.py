@@ -9,7 +9,6 @@ near-crystals theta_l is about 0, which breaks gamma >= (1 - theta_l) / 2. Local
 force of each sphere as localised and its median force as extended. Spheres and Mari-Kurchan packings are those of final_network.py;
 near-crystals are FCC lattices of 108 spheres whose diameters spread by 1 %, grown as in near_crystals.py. Small: N = 128. Large: 256, 512.
 """
-import matplotlib.pyplot as plt
 import numpy as np
 from common import THETA_E, THETA_L, Results, arguments, mean_error, seeded
 from final_network import MODELS, SEEDS, SIZES, network, networks
@@ -40,7 +39,7 @@ def exponent(r, label, values, n, known):
         print(f"{label}: {why}")
 
 
-def look(r, axes, k, text, n, made):
+def look(r, text, n, made):
     where = f"{text}, N = {n}"
     local = [(m["flags"] & LOCALISED) != 0 for m in made]
     share = mean_error([np.mean(m["sigma"][u] < 1) for m, u in zip(made, local) if u.any()])
@@ -53,31 +52,21 @@ def look(r, axes, k, text, n, made):
     r.add("modes", f"rank correlation of b and W of localised modes, {where}", "0: independent", *mean_error(rank))
     for flag, name, known in ((SMALLEST, "smallest", THETA_L if text == "spheres" else 0.0), (MEDIAN, "median", THETA_E)):
         exponent(r, f"exponent of the {name} force of each sphere, {where}", [m["f"][(m["flags"] & flag) != 0] for m in made], n, known)
-    b = np.sort(np.concatenate(b)) * n**0.5
-    sigma = np.sort(np.concatenate([m["sigma"][u] for m, u in zip(made, local)]))
-    axes[0].loglog(b, np.arange(1, len(b) + 1) / len(b), lw=1, color=f"C{k}", label=where)
-    axes[1].loglog(sigma, np.arange(1, len(sigma) + 1) / len(sigma), lw=1, color=f"C{k}", label=where)
 
 
 def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
     sizes = SIZES[2:4] if o.large else [128]
-    r, (figure, axes) = Results(o, "localised_modes"), plt.subplots(1, 2, figsize=(11, 4.4))
-    k = 0
+    r = Results(o, "localised_modes")
     for model, text in MODELS.items():
         for n in sizes:
             good, _ = networks(o, model, n, SEEDS[SIZES.index(n)] if o.large else 8)
             if len(good) > 3:
-                look(r, axes, k, text, n, good)
-                k += 1
+                look(r, text, n, good)
     good = [m for m in seeded(o, "localised_modes", "crystal_", 100 if o.large else 8, lambda s: near_crystal(s)) if m["good"]]
     if len(good) > 3:
-        look(r, axes, k, "near-crystals", 108, good)
-    axes[0].set(xlabel="b sqrt N of localised modes", ylabel="share below")
-    axes[1].set(xlabel="Sigma of localised contacts; below 1: not stable", ylabel="share below")
-    axes[1].axvline(1, color="0.7", lw=1)
-    axes[0].legend(fontsize=7)
-    r.write(figure)
+        look(r, "near-crystals", 108, good)
+    r.write()
 
 
 if __name__ == "__main__":

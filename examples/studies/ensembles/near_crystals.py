@@ -8,7 +8,6 @@ in the rectangle that fits their lattice, where there is no molecular dynamics: 
 gives no parameters. Known (G. Tsekenis, arXiv 2006.07373): phi_J falls linearly with the spread. Packings that
 end without a verdict are left out. Small: 108 spheres, 120 disks, 6 packings a spread. Large: 256 spheres, 480 disks, 60.
 """
-import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, ensemble, mean_error, seeded
 
@@ -18,7 +17,6 @@ FULL = {3: np.pi / 18**0.5, 2: np.pi / 12**0.5}
 SPREADS = (1e-3, 3e-3, 1e-2, 3e-2)
 PACKED = 0.945  # disks: start at this part of the crystal's density
 KICK = 0.01  # disks: random displacements at the start, each component, in lattice spacings
-ORDER = {3: ("Q_6", 1.2), 2: ("psi_6", 1.2)}
 
 
 def protocol(n, deviation):
@@ -48,71 +46,37 @@ def disks(n, seed, deviation):
     sites += rng.uniform(-KICK, KICK, sites.shape) / columns
     with jam.System.from_arrays(sites, sizes, cell=cell, seed=seed, overlap="shrink") as packing:
         report = packing.crunch()
-        made = {"jammed": report.jammed, "phi": report.packing_fraction, "order": np.mean(packing.bond_order(6, 1.2))}
-        if report.jammed:
-            made["forces"], made["gaps"] = packing.forces, packing.call("gaps", 1.0, 1).gap
-        return made
+        return {"jammed": report.jammed, "phi": report.packing_fraction}
 
 
 def spheres(o, n, deviation, count):
-    made = []
-    for entry in ensemble(o, protocol(n, deviation), count):
-        one = {"jammed": entry.row["jammed"], "phi": entry.row["packing_fraction"]}
-        if one["jammed"]:
-            f, gaps, order = entry.read("forces", "gaps", "bond_order")
-            one.update(forces=f, gaps=gaps, order=np.mean(order))
-        made.append(one)
-    return made
+    return [{"jammed": e.row["jammed"], "phi": e.row["packing_fraction"]} for e in ensemble(o, protocol(n, deviation), count)]
 
 
 def disks_of(o, n, deviation, count):
     return seeded(o, f"hexagonal_n{n}", f"deviation{deviation:g}_", count, lambda s: disks(n, s, deviation))
 
 
-def one_kind(o, r, axes, dim, n, count):
-    loss, order, mark = [], [], "o-" if dim == 3 else "s--"
-    name = f"{'FCC' if dim == 3 else 'hexagonal'}, N = {n}"
-    for k, deviation in enumerate(SPREADS):
-        made = (spheres if dim == 3 else disks_of)(o, n, deviation, count)
-        good = [m for m in made if m["jammed"]]
-        if len(good) < 2:
-            continue
-        phi, q = mean_error([m["phi"] for m in good]), mean_error([m["order"] for m in good])
-        loss.append((deviation, FULL[dim] - phi[0], phi[1])), order.append((deviation, *q))
-        gaps, forces = [m["gaps"] for m in good], [m["forces"] for m in good]
-        for axis, values in ((axes[2], gaps), (axes[3], forces)):
-            pool = np.sort(np.concatenate(values))
-            axis.loglog(
-                pool[pool > 0],
-                (np.arange(1, len(pool) + 1) / len(pool))[pool > 0],
-                mark[1:],
-                color=f"C{k}",
-                lw=1,
-                label=f"{name}, spread {deviation:g}",
-            )
-    if len(loss) < 3:
-        return
-    loss, order = np.array(loss), np.array(order)
-    axes[0].loglog(loss[:, 0], loss[:, 1], mark, label=name)
-    axes[1].semilogx(order[:, 0], order[:, 1], mark, label=f"{ORDER[dim][0]}, {name}")
-    x, y, e = np.log(loss[:, 0]), np.log(loss[:, 1]), np.maximum(loss[:, 2] / loss[:, 1], 1e-3)
-    (power, _), cov = np.polyfit(x, y, 1, w=1 / e, cov="unscaled")
-    r.add("10", f"power of the spread in phi_crystal - phi_J, {name}", 1.0, power, cov[0, 0] ** 0.5)
+def one_kind(o, r, dim, n, count):
+    loss = []
+    for deviation in SPREADS:
+        phi = [m["phi"] for m in (spheres if dim == 3 else disks_of)(o, n, deviation, count) if m["jammed"]]
+        if len(phi) > 1:
+            mean, error = mean_error(phi)
+            loss.append((deviation, FULL[dim] - mean, error))
+    if len(loss) > 2:
+        x, y, e = np.array(loss).T
+        (power, _), cov = np.polyfit(np.log(x), np.log(y), 1, w=1 / np.maximum(e / y, 1e-3), cov="unscaled")
+        text = f"power of the spread in phi_crystal - phi_J, {'FCC' if dim == 3 else 'hexagonal'}, N = {n}"
+        r.add("10", text, 1.0, power, cov[0, 0] ** 0.5)
 
 
 def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
     r = Results(o, "near_crystals")
-    figure, axes = plt.subplots(1, 4, figsize=(17, 4.5))
-    one_kind(o, r, axes, 3, 256 if o.large else 108, 60 if o.large else 6)
-    one_kind(o, r, axes, 2, 480 if o.large else 120, 60 if o.large else 6)
-    axes[0].plot([1e-3, 3e-2], [2e-3, 6e-2], "k--", lw=1, label="slope 1")
-    names = (("spread", "phi_crystal - phi_J"), ("spread", "bond order"), ("h", "cdf of gaps"), ("f", "cdf of forces"))
-    for axis, (x, y) in zip(axes, names):
-        axis.set(xlabel=x, ylabel=y)
-    for k in (0, 1, 2):
-        axes[k].legend(fontsize=6)
-    r.write(figure)
+    one_kind(o, r, 3, 256 if o.large else 108, 60 if o.large else 6)
+    one_kind(o, r, 2, 480 if o.large else 120, 60 if o.large else 6)
+    r.write()
 
 
 if __name__ == "__main__":

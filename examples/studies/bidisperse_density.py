@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Jamming density of spheres of two sizes against size ratio and share of the large ones, beside published curves.
 
-usage: bidisperse_density.py PICTURE.png [--n 500] [--ratios 2,3,5] [--seeds 1] [--json rows.json]      a minute by default
+usage: bidisperse_density.py PICTURE.png [--n 500]      a minute by default
 
 X is the share of the large spheres in the volume of all. Lines: the theory of R. S. Farr and R. D. Groot, J. Chem. Phys. 131,
 244104 (2009), which they compare with simulations, as jam.size_report computes it for the same diameters. Black: the limit of
@@ -10,14 +10,12 @@ small spheres jam around the large ones, 1 / (X + (1 - X) / f); right of it they
 ones, f / X. The peak is at X = 1 / (2 - f), with the density 1 - (1 - f)^2. Growth to p = 1000 at G = 0.01, then a crunch.
 """
 import argparse
-import json
-from pathlib import Path
 
 import jam
 import matplotlib.pyplot as plt
 import numpy as np
 
-EQUAL = 0.6435
+EQUAL, RATIOS = 0.6435, (2.0, 3.0, 5.0)
 SHARES = (0.0, 0.2, 0.4, 0.55, 0.65, 0.72, 0.8, 0.9, 1.0)
 
 
@@ -33,10 +31,10 @@ def diameters(n, ratio, share):
     return np.r_[np.full(large, float(ratio)), np.ones(n - large)]
 
 
-def measure(n, ratio, share, seed):
+def measure(n, ratio, share):
     sizes = diameters(n, ratio, share)
     volume = sizes**3
-    s = jam.System.random(n, 3, seed, diameters=sizes)
+    s = jam.System.random(n, 3, 1, diameters=sizes)
     s.compress(growth_rate=0.01, pressure=1000)
     r = s.crunch()
     large = sizes > 1
@@ -46,7 +44,6 @@ def measure(n, ratio, share, seed):
         "ratio": ratio,
         "share": float(volume[large].sum() / volume.sum()),
         "large": int(large.sum()),
-        "seed": seed,
         "jammed": r.jammed,
         "packing_fraction": r.packing_fraction,
         "theory": jam.size_report(sizes).jammed_fraction,
@@ -59,7 +56,7 @@ def draw(rows, path):
     figure, (left, right) = plt.subplots(1, 2, figsize=(10, 4))
     x = np.linspace(0, 1, 201)
     left.plot(x, furnas(x), "k-", lw=1, label="infinite ratio (Furnas)")
-    for colour, ratio in zip(("#2b6cb0", "#2f855a", "#c05621", "#6b46c1"), sorted({r["ratio"] for r in rows})):
+    for colour, ratio in zip(("#2b6cb0", "#2f855a", "#c05621", "#6b46c1"), RATIOS):
         mine = sorted((r for r in rows if r["ratio"] == ratio), key=lambda r: r["share"])
         shares = [r["share"] for r in mine]
         line = [jam.size_report(diameters(20000, ratio, s)).jammed_fraction for s in x[::4]]
@@ -82,20 +79,15 @@ def main():
     p = argparse.ArgumentParser()
     p.add_argument("picture")
     p.add_argument("--n", type=int, default=500)
-    p.add_argument("--seeds", type=int, default=1)
-    p.add_argument("--ratios", type=lambda t: [float(x) for x in t.split(",")], default=[2.0, 3.0, 5.0])
-    p.add_argument("--json", type=Path)
     a = p.parse_args()
     rows = []
     print("| ratio | X | large of n | phi_J | Farr and Groot | Furnas | small rattlers |\n|---|---|---|---|---|---|---|")
-    for ratio in a.ratios:
+    for ratio in RATIOS:
         for share in SHARES:
-            for seed in range(1, a.seeds + 1):
-                rows.append(measure(a.n, ratio, share, seed))
-                r = rows[-1]
-                print(f"| {ratio:g} | {r['share']:.3f} | {r['large']} | {r['packing_fraction']:.4f} | {r['theory']:.4f} | {r['furnas']:.4f} | {r['small_rattlers']:.2f} |", flush=True)
-    if a.json:
-        a.json.write_text(json.dumps(rows, indent=1) + "\n")
+            r = measure(a.n, ratio, share)
+            rows.append(r)
+            print(f"| {ratio:g} | {r['share']:.3f} | {r['large']} | {r['packing_fraction']:.4f} | {r['theory']:.4f} ", end="")
+            print(f"| {r['furnas']:.4f} | {r['small_rattlers']:.2f} |", flush=True)
     draw(rows, a.picture)
 
 

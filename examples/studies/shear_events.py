@@ -75,7 +75,7 @@ def main(picture):
         axis.plot(x, y[middle] * (np.array(x) / x[middle]) ** published, "k--", lw=1, label=f"published {published:.2f}")
         axis.set(xscale="log", yscale="log")
         axis.set_xticks(x, [f"{v:g}" for v in x])
-        axis.xaxis.set_minor_locator(matplotlib.ticker.NullLocator())
+        axis.minorticks_off()
         axis.legend(frameon=False, fontsize=8)
         print(f"exponent {law[0]:.3f} +- {law[1]:.3f}, published {published:.3f}")
     axes[0].set(xlabel=r"pressure $p \sigma^2 / \epsilon$", ylabel=r"shear modulus $G \sigma^2 / \epsilon$")

@@ -47,11 +47,6 @@ def main():
     where = [("3.10", f"phi/phi_J = {ratio}, tau = {tau}") for ratio in RATIOS for tau in TAUS] + [("3.14", "alpha = 2")]
     names = list(near.SCALARS)
     for row, (figure, state) in enumerate(where):
-        for column, text in enumerate(near.SCALARS.values()):
-            mean = mean_error(k[:, row, column])
-            r.add(figure, f"K[{text}, <|dr|^2>], {state}, mean of {packings} packings", "largest |K| for S", *mean)
-            spread = k[:, row, column].std(ddof=1)
-            r.add(figure, f"the same, standard deviation between packings, {text}, {state}", "one packing", spread)
         more = np.abs(k[:, row, names.index("s")]) - np.abs(k[:, row, names.index("force_sum")])
         r.add(figure, f"|K| of S minus that of sum f, {state}, mean of {packings} packings", "> 0", *mean_error(more))
         r.add(figure, f"share of packings in which |K| of S is above that of sum f, {state}", "one packing: yes", np.mean(more > 0))

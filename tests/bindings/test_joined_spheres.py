@@ -89,18 +89,10 @@ class Overlaps(Folder):
             self.assertAlmostEqual(report.solid, shrunk.solid_profile(0, 1).solid[0], 12)
 
     def test_non_additive_contacts(self):
-        for delta, joined in ((-0.1, True), (0.1, False)):
-            s = jam.System.random(n=24, seed=1, diameters=[1.0, 1.3] * 12, non_additivity=delta)
-            s.compress(growth_rate=1e-2, pressure=1e4)
-            s.crunch()
-            if joined and s.solid_profile(0, 1).solid[0] < 1:
-                try:
-                    report, _ = self.mesh(s)
-                except jam.errors.UnsupportedError:
-                    continue
-            else:
-                report, _ = self.mesh(s)
-            self.assertAlmostEqual(report.solid, s.solid_profile(0, 1).solid[0], 11)
+        s = jam.System.random(n=24, seed=1, diameters=[1.0, 1.3] * 12, non_additivity=0.1)
+        s.compress(growth_rate=1e-2, pressure=1e4)
+        s.crunch()
+        self.assertAlmostEqual(self.mesh(s)[0].solid, s.solid_profile(0, 1).solid[0], 11)
 
     def test_what_would_cut_itself_is_refused(self):
         three = [[0.5 + 0.15 * math.cos(t), 0.5 + 0.15 * math.sin(t), 0.5] for t in (0, 2.1, 4.2)]
@@ -321,11 +313,7 @@ class ByDistance(Folder):
         self.assertEqual(len(Path(csv).read_text().splitlines()), 1 + len(s.contacts))
         self.assertEqual(Path(table).read_text().splitlines()[1].split(",")[2], "")
         self.assertEqual(len(triangles(walls)), 4)
-        done = run("page", xyz, page)
-        self.assertIn("--contact-gap", done.stderr)
-        self.assertIn("No contacts found", Path(page).read_text())
-        run("page", xyz, page, "--contact-gap", "0.02")
-        self.assertIn("Contacts by distance", Path(page).read_text())
+        self.assertIn("--contact-gap", run("page", xyz, page).stderr)
         open_bed = str(self.folder / "open.xyz")
         hard = jam.System.random(n=200, seed=3)
         hard.compress(packing_fraction=0.55)

@@ -1,4 +1,4 @@
-"""Each bound of the checker is needed: where one is taken out, a false file passes. Run it to see the table.
+"""Each bound of the checker is needed: where one is taken out, a false file passes.
 
 A file is false where what the broken checker then says of it is wrong: an overlap, forces that do not balance, a radius
 below the distance to the exact packing. What holds of implied contacts is in test_proof_truths.py: a file that names a
@@ -176,14 +176,3 @@ class Bounds(unittest.TestCase):
                 self.assertFalse(is_false(verdict(text, checker()), radius))
                 broken = verdict(text, checker((old, new)))
                 self.assertTrue(is_false(broken, radius), broken)
-
-
-if __name__ == "__main__":
-    if sys.argv[1:] == ["--table"]:
-        print("| bound taken out | checker | without the bound |\n|---|---|---|")
-        for bound, before, after, maker, _ in TABLE:
-            false = maker()
-            shown = [verdict(false, checker(e)) for e in (None, (before, after))]
-            print(f"| {bound} | " + " | ".join(f"proved, {float(x['radius']):.1g}" if isinstance(x, dict) else x for x in shown) + " |")
-    else:
-        unittest.main()

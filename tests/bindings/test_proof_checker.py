@@ -1,6 +1,5 @@
 """The checker as a program: its files, what it reads and refuses, and what it prints."""
 import base64
-import decimal
 import math
 import os
 import random
@@ -9,9 +8,11 @@ import shutil
 import subprocess
 import sys
 import zlib
+from fractions import Fraction
 
 from packings import InFolder
 from proof_files import CHECKER, File, doubled, file_of, jamproof
+from test_digits import PI
 from test_proof import packing
 from test_proof_bounds import fcc, made
 
@@ -199,14 +200,11 @@ class Program(InFolder):
             self.assertTrue(line.startswith(f"d = {scene.dim}, N = {len(scene.x)}, {len(scene.contacts)} contacts, "), line)
             shown = line.split("phi = ")[1]
             self.assertRegex(shown, r"^0\.\d{28,}\.\.\.$")
-            with decimal.localcontext() as context:  # pi from Gauss and Legendre; the file's own diameters and cell
-                context.prec = 60
-                edge = decimal.Decimal(math.prod(scene.cell[q][q] for q in range(scene.dim))) / decimal.Decimal(scene.one) ** scene.dim
-                root = decimal.Decimal(scene.gamma.numerator) / decimal.Decimal(scene.gamma.denominator)
-                size = [(decimal.Decimal(v.numerator) / v.denominator) ** scene.dim for v in scene.ratio]
-                ball = {2: gauss_legendre() / 4, 3: gauss_legendre() / 6}[scene.dim]
-                phi = ball * sum(size) * root ** (decimal.Decimal(scene.dim) / 2) / edge
-            self.assertTrue(str(phi).startswith(shown[:26]), (shown, phi))
+            balls = PI / {2: 4, 3: 6}[scene.dim] * sum(v**scene.dim for v in scene.ratio)
+            edges = math.prod(Fraction(scene.cell[q][q], scene.one) for q in range(scene.dim))
+            square = (balls / edges) ** 2 * scene.gamma**scene.dim
+            phi = math.isqrt(math.floor(square * 10**120))
+            self.assertTrue(f"0.{phi:060d}".startswith(shown[:26]), (shown, phi))
 
     def test_it_is_compared_with_an_xyz_file(self):
         system, ratio = packing(16, 3, 7)
@@ -241,12 +239,3 @@ resource.setrlimit(resource.RLIMIT_AS, (96 << 20, 96 << 20))
 sys.argv = sys.argv[1:]
 runpy.run_path(sys.argv[0], run_name="__main__")
 """
-
-
-def gauss_legendre():
-    """pi to 60 digits, by another series than the checker's."""
-    a, b, t, p = decimal.Decimal(1), 1 / decimal.Decimal(2).sqrt(), decimal.Decimal("0.25"), 1
-    for _ in range(7):
-        a, b, t, p, last = (a + b) / 2, (a * b).sqrt(), t, 2 * p, a
-        t -= decimal.Decimal(p) / 2 * (last - a) ** 2
-    return (a + b) ** 2 / (4 * t)

@@ -231,12 +231,3 @@ class CommandLine(unittest.TestCase):
             wall = rows[:, 1] < 0
             self.assertTrue(wall.any())
             np.testing.assert_array_equal(rows[wall, 3], coordination[rows[wall, 0].astype(int)] > 0)
-
-    def test_formats_without_walls_are_refused_before_the_work(self):
-        with tempfile.TemporaryDirectory() as folder:
-            start("slit", 30, 1).write(f"{folder}/slit.xyz")
-            for given in (["--n", "30", "--walls", "z"], ["--input", f"{folder}/slit.xyz"]):
-                made = self.run_pack(*given, "--output", f"{folder}/a.dat", "--report", f"{folder}/r.json")
-                self.assertNotEqual(made.returncode, 0)
-                self.assertIn("walls", made.stderr)
-                self.assertFalse(Path(folder, "r.json").exists())

@@ -28,18 +28,19 @@ class Minima(unittest.TestCase):
                     s = soft(name, 24, 3, dense(name))
                     r = s.relax(scale=scale, alpha=alpha)
                     self.assertTrue(r.converged and r.contacts > 0)
-                    self.assertAlmostEqual(energy(SCENES[name], s.positions, s, scale, alpha) / r.energy, 1, 10)
+                    at = lambda x: energy(SCENES[name], x, s, scale, alpha)
+                    self.assertAlmostEqual(at(s.positions) / r.energy, 1, 10)
                     # Every displacement changes the energy at second order alone.
                     u = np.random.default_rng(1).normal(size=(8,) + s.positions.shape)
                     step = 1e-6 * s.diameters.mean()
                     # Contacts that are open by less than the step change sides: an error of step^alpha each.
                     limit = 1e-9 * r.energy / step + s.n * step ** (alpha - 1)
                     for v in u:
-                        slope = (energy(SCENES[name], s.positions + step * v, s, scale, alpha) - energy(SCENES[name], s.positions - step * v, s, scale, alpha)) / (2 * step)
+                        slope = (at(s.positions + step * v) - at(s.positions - step * v)) / (2 * step)
                         self.assertLess(abs(slope), limit)
                         # against the same sum at a place that is no minimum
                         far = s.positions + 0.01 * s.diameters.mean() * v
-                        slope = (energy(SCENES[name], far + step * v, s, scale, alpha) - energy(SCENES[name], far - step * v, s, scale, alpha)) / (2 * step)
+                        slope = (at(far + step * v) - at(far - step * v)) / (2 * step)
                         self.assertGreater(abs(slope), limit)
 
     def test_contacts_and_forces_are_those_of_the_overlaps(self):
@@ -67,7 +68,8 @@ class Minima(unittest.TestCase):
             x = [s.positions.copy() for _ in range(3)]
             for k in (0, 2):
                 x[k][spheres] += (k - 1) * step * u
-            second = (energy(SCENES[name], x[0], s) + energy(SCENES[name], x[2], s) - 2 * energy(SCENES[name], x[1], s)) / step**2
+            low, middle, high = (energy(SCENES[name], y, s) for y in x)
+            second = (low + high - 2 * middle) / step**2
             self.assertAlmostEqual(u.ravel() @ (h @ u.ravel()) / second, 1, 3, name)
             self.assertGreater(s.modes(k=2, stiffness="soft", prestress=1.0).values[0], 0)
 

@@ -15,7 +15,7 @@ A file of several results has each under its name: `results.json#finite_size row
 
 A result has the keys machine, commit, date, command, columns and rows. Where an older measurement is kept, commit and date
 are those of the commit that published it. A cell is a text, a number (three digits are shown), a list, {"from", "to"} or
-{"value", "error"}. A table with the columns `STORED` is shown with those of `STUDY`.
+{"value", "error"}. A result without columns has those of `STORED`, and is shown with those of `STUDY`.
 """
 import datetime
 import fcntl
@@ -44,7 +44,7 @@ def made_by():
 
 
 def text_of(value, indent=""):
-    """JSON, one member a line; of a list of rows or of sets of packings each is a line."""
+    """JSON, one member a line; of a list of rows each is a line."""
     if isinstance(value, dict):
         members = [f"{indent} {json.dumps(key)}: {text_of(item, indent + ' ')}" for key, item in value.items()]
         return "{\n" + ",\n".join(members) + f"\n{indent}}}"
@@ -53,9 +53,9 @@ def text_of(value, indent=""):
     return json.dumps(value, ensure_ascii=False)
 
 
-def save(path, command, columns, rows, source=None, **more):
+def save(path, command, columns, rows, source=None):
     """Writes a result into a file, or into FILE#NAME beside others. source: machine, commit and date; those of now by default."""
-    result = {**(source or made_by()), "command": command, **more, "columns": columns, "rows": rows}
+    result = {**(source or made_by()), "command": command, **({} if columns == STORED else {"columns": columns}), "rows": rows}
     file, _, name = str(path).partition("#")
     folder = os.open(os.path.dirname(file) or ".", os.O_RDONLY)
     fcntl.flock(folder, fcntl.LOCK_EX)  # two studies may end at once
@@ -73,7 +73,7 @@ def load(path):
         columns, rows = runpy.run_path(file)["made"]()[name]
         return {"machine": "that of each result", "commit": "", "date": "", "command": "", "columns": columns, "rows": rows}
     found = json.loads(Path(file).read_text(encoding="utf-8"))
-    return found[name] if name else found
+    return {"columns": STORED, **(found[name] if name else found)}
 
 
 def number(value, digits=3):

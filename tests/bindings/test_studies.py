@@ -21,7 +21,7 @@ def run(script, out, *options):
     if made.returncode:
         raise AssertionError(made.stdout + made.stderr)
     found = json.loads((Path(out) / "results.json").read_text(encoding="utf-8"))[script]
-    rows = [dict(zip(found["columns"], row)) for row in found["rows"]]
+    rows = [{"quantity": row[1], "published": row[2], "ours": row[3]} for row in found["rows"]]
     return found, {row["quantity"]: row for row in rows}, made.stdout
 
 

@@ -13,7 +13,7 @@ A file of several results has each under its name: `results.json#finite_size row
 `made()` returns, {name: (columns, rows)}.
 `<!-- figures machine -->` gives the machine of all results of the page, which must be the same.
 
-A result has the keys machine, commit, date, command, columns and rows. Where an older measurement is kept, commit and date
+A result has the keys machine (if it was recorded), commit, date, command, columns and rows. Where an older measurement is kept, commit and date
 are those of the commit that published it. A cell is a text, a number (three digits are shown), a list, {"from", "to"} or
 {"value", "error"}. A result without columns has those of `STORED`, and is shown with those of `STUDY`.
 """
@@ -73,7 +73,7 @@ def load(path):
         columns, rows = runpy.run_path(file)["made"]()[name]
         return {"machine": "that of each result", "commit": "", "date": "", "command": "", "columns": columns, "rows": rows}
     found = json.loads(Path(file).read_text(encoding="utf-8"))
-    return {"columns": STORED, **(found[name] if name else found)}
+    return {"machine": "not recorded", "columns": STORED, **(found[name] if name else found)}
 
 
 def number(value, digits=3):

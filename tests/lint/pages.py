@@ -86,7 +86,7 @@ def figures(root, problem):
     for path in root.glob("examples/studies/**/results.json"):
         results += [(f"{path}#{name}", result) for name, result in json.loads(path.read_text(encoding="utf-8")).items()]
     for path, result in results:
-        missing = {"machine", "commit", "date", "command"} - result.keys()
+        missing = {"commit", "date", "command"} - result.keys()
         if missing:
             problem(path, 0, f"no {', '.join(sorted(missing))}")
     if not re.search(MEASURED, "it takes 0.5 s") or re.search(MEASURED, "5 spheres"):

@@ -12,21 +12,12 @@ import sys
 
 import numpy as np
 from common import GAMMA, HERE, THETA_E, Results, arguments, ensemble, mean_error
+from final_network import power
 from finite_size import MAX_ORDER, protocol
 
 from jam.scaling import tail_exponent
 
 sys.path.insert(0, str(HERE.parent))
-
-
-def slope(sizes, values):
-    """Exponent of N and its error from (mean of the logarithm, error) of each size, by weighted least squares."""
-    x = np.log(np.array(sorted(sizes), float))
-    y, e = np.array([values[n] for n in sorted(sizes)]).T
-    w = 1 / e**2
-    centre = (w @ x) / w.sum()
-    spread = w @ (x - centre) ** 2
-    return (w @ ((x - centre) * y)) / spread, spread**-0.5
 
 
 def main():
@@ -68,10 +59,9 @@ def main():
         "f_min": -1 / (1 + THETA_E),
     }
     for k, (name, law) in enumerate(expected.items()):
-        values = {n: mean_error(np.log(a[:, k])) for n, a in found.items()}  # packings scatter by factors of three
-        power, error = slope(found, values)
+        slope = power(list(found), [np.log10(a[:, k]) for a in found.values()])  # packings scatter by factors of three
         text = f"power of N of {name} ({'median' if k < 2 else 'least'} of a packing, mean of its logarithm)"
-        r.add("9", text, round(law, 4), power, error)
+        r.add("9", text, round(law, 4), *slope)
     largest = max(found)
     share, error = mean_error(found[largest][:, 3])
     r.add("9", f"share of contacts with Sigma = s_return / s_plus > 1, N = {largest}", "stable: all", share, error)

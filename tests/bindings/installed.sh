@@ -1,6 +1,6 @@
 #!/bin/sh
 # Consumers of an installed tree in Fortran, Python and CMake, without the build tree. package/failing has those in C
-# and C++ by pkg-config.
+# and C++, by pkg-config.
 # usage: installed.sh BUILD_FOLDER SOURCE_FOLDER PYTHON_FOLDER_BELOW_PREFIX LIBRARY_FOLDER_BELOW_PREFIX
 set -eu
 build=$1 source=$2 python_dir=$3 lib_dir=$4

@@ -71,14 +71,6 @@ class Making(unittest.TestCase):
         self.assertIn("9", str(caught.exception))
         self.assertEqual(caught.exception.status, jam.StatusCode.E_DIMENSION)
         self.assertIsInstance(caught.exception, (jam.JamError, ValueError))
-        with self.assertRaises(jam.errors.OverlapError):
-            jam.System.from_arrays([[0.1, 0.1], [0.2, 0.1]], 0.2)
-        with self.assertRaises(jam.errors.NonfiniteError):
-            jam.System.from_arrays([[0.1, np.nan]], 0.2)
-        with self.assertRaises(jam.errors.UnplaceableError):
-            jam.System.random(n=50, packing_fraction=0.9)
-        with self.assertRaises(jam.errors.IoError):
-            jam.System.read("/does/not/exist")
         with self.assertRaises(OSError):
             jam.System.read("/does/not/exist")
         with self.assertRaises(jam.errors.StateError):

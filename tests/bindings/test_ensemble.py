@@ -278,16 +278,3 @@ class Campaigns(InFolder):
         self.assertEqual(len(e), 1)
         self.assertEqual(list(e.files.parts.iterdir()), [])
         self.assertEqual(resource.getrlimit(resource.RLIMIT_FSIZE)[0], resource.RLIM_INFINITY)
-
-    def test_a_campaign_that_fails_leaves_no_unfinished_file(self):
-        e = Ensemble(self.folder, SMALL)
-
-        class KilledWhileItWrote(LocalPool):
-            def submit(self, *_):
-                (e.files.parts / f".jam-{'0' * 16}-{'1' * 32}.part").touch()
-                raise StoreError("the disk is full")
-
-        with unittest.mock.patch("jam.ensemble.ensemble.LocalPool", KilledWhileItWrote):
-            with self.assertRaisesRegex(StoreError, "the disk is full"):
-                e.run([1], progress=False)
-        self.assertEqual(list(e.files.parts.iterdir()), [])

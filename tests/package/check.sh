@@ -34,41 +34,31 @@ cmake)
   fi
   ;;
 subproject)
-  # A part of another project: its target docs is its own, and without a build type the library is optimised.
-  rm -rf "$scratch/parent" && mkdir "$scratch/parent"
-  cat >"$scratch/parent/CMakeLists.txt" <<EOF
-cmake_minimum_required(VERSION 3.22)
-project(parent LANGUAGES C CXX)
-add_custom_target(docs)
-add_subdirectory($here/../.. jam)
-EOF
-  flags() { grep '"command":.*/src/core/cell.cpp' "$scratch/parent/b/compile_commands.json"; }
+  # A part of another project, by FetchContent, beside targets of the same names. Without a build type the library is
+  # optimised; the type and the flags of the parent are kept.
+  flags() { grep '"command":.*/src/core/cell.cpp' "$scratch/fetch/compile_commands.json"; }
   configure() {
-    rm -rf "$scratch/parent/b"
-    env -u CXXFLAGS -u CFLAGS cmake -S "$scratch/parent" -B "$scratch/parent/b" -DCMAKE_EXPORT_COMPILE_COMMANDS=ON \
-      "$@" >"$scratch/parent/log"
+    rm -rf "$scratch/fetch"
+    env -u CXXFLAGS -u CFLAGS cmake -G "Unix Makefiles" -S "$here/fetch" -B "$scratch/fetch" \
+      -DJAM_SOURCE="$here/../.." -DCMAKE_EXPORT_COMPILE_COMMANDS=ON "$@" >"$scratch/fetch.log"
   }
   configure
   flags | grep -q -- ' -O3 ' || die "without a build type libjam is not optimised"
-  grep -q 'no build type' "$scratch/parent/log" || die "the flags are not reported"
-  configure -DCMAKE_BUILD_TYPE=Debug
-  if flags | grep -q -- ' -O3 '; then die "the build type of the parent is not kept"; fi
+  grep -q 'no build type' "$scratch/fetch.log" || die "the flags are not reported"
   # An install of the parent has nothing of libjam, unless the parent asks for it.
-  installed() { grep -rl 'file(INSTALL' --include=cmake_install.cmake "$scratch/parent/b/jam" || true; }
+  installed() { grep -rl 'file(INSTALL' --include=cmake_install.cmake "$scratch/fetch/_deps/jam-build" || true; }
   [ -z "$(installed)" ] || die "the parent installs libjam: $(installed)"
-  configure -DJAM_INSTALL=ON
-  [ -n "$(installed)" ] || die "JAM_INSTALL installs nothing"
   configure -DCMAKE_CXX_FLAGS=-O1
   if flags | grep -q -- ' -O3 '; then die "the flags of the parent are not kept"; fi
-  ;;
-fetch)
-  # By FetchContent, beside targets of the same names; each links its own library. A preset is taken.
-  rm -rf "$scratch/fetch"
-  cmake -G "Unix Makefiles" -S "$here/fetch" -B "$scratch/fetch" -DJAM_SOURCE="$here/../.." \
-    -DJAM_BUILD_STATIC=ON -DJAM_LAPACK=OFF -DJAM_CLP=OFF >"$scratch/fetch.log"
+  configure -DCMAKE_BUILD_TYPE=Debug -DJAM_INSTALL=ON -DJAM_BUILD_STATIC=ON
+  if flags | grep -q -- ' -O3 '; then die "the build type of the parent is not kept"; fi
+  [ -n "$(installed)" ] || die "JAM_INSTALL installs nothing"
+  # Each links its own library.
   grep -q 'libjam[.]so' "$scratch/fetch/CMakeFiles/fetched.dir/link.txt" || die "jam::jam does not link libjam.so"
   grep 'libjam[.]a' "$scratch/fetch/CMakeFiles/fetched_static.dir/link.txt" | grep -v 'libjam[.]so' >/dev/null ||
     die "jam::static does not link libjam.a alone"
+  ;;
+preset)
   rm -rf "$scratch/flat"
   cmake -C "$here/../../pkgconfig/presets/flat.cmake" -S "$here/../.." -B "$scratch/flat" >"$scratch/flat.log"
   for value in 'JAM_LAPACK:STRING=OFF' 'JAM_CLP:BOOL=OFF' 'JAM_DIMENSIONS:STRING=2;3'; do

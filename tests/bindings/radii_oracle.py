@@ -123,8 +123,8 @@ class Programme:
         return np.concatenate(out)
 
     def sum_from(self, x, radius):
-        """The sum at the end and how far the end is; 0 where it overlaps."""
+        """The sum at the end; 0 where it overlaps."""
         start = np.c_[x, radius].ravel()
         made = minimize(lambda u: -u.reshape(self.n, -1)[:, -1].sum(), start, constraints={"type": "ineq", "fun": self.gaps},
                         method="SLSQP", options={"maxiter": 300, "ftol": 1e-12})
-        return (-made.fun, abs(made.x - start).max()) if self.gaps(made.x).min() > -1e-9 else (0.0, 0.0)
+        return -made.fun if self.gaps(made.x).min() > -1e-9 else 0.0

@@ -12,7 +12,6 @@ from pathlib import Path
 import jam
 import numpy as np
 from packings import InFolder
-from test_overlapping_solid import union_of_disks
 
 PACK = os.environ.get("JAM_PACK")
 
@@ -200,22 +199,6 @@ class Image(unittest.TestCase):
 
 
 class Profiles(unittest.TestCase):
-
-    def test_a_sphere_in_a_tube(self):
-        """Shells by Simpson's rule over heights, of what two circles share."""
-        x, r, edge = np.array([0.62, 0.55, 0.5]), 0.21, 0.4
-        s = jam.System.from_arrays([x], 2 * r, cell=[1, 1, 1], container="cylinder")
-        apart = math.hypot(x[0] - 0.5, x[1] - 0.5)
-        angle = np.linspace(0, math.pi / 2, 20001)
-        q = r * np.cos(angle)
-        both = [math.pi * (a * a + edge * edge) - union_of_disks([(0, 0), (apart, 0)], [a, edge]) for a in q]
-        f = np.array(both) * q
-        weight = np.ones(len(angle))
-        weight[1:-1:2], weight[2:-1:2] = 4, 2
-        inside = 2 * (weight * f).sum() * (angle[1] - angle[0]) / 3
-        p = s.solid_profile(3, 5)
-        found = (p.solid[:4] * math.pi * (p.high[:4] ** 2 - p.low[:4] ** 2)).sum()
-        self.assertAlmostEqual(found, inside, 9)
 
     def test_refusals(self):
         s = jam.System.random(20, packing_fraction=0.1)

@@ -51,19 +51,6 @@ def can_move(s, seed=0):
 
 class Tile(unittest.TestCase):
 
-    def test_copies_stand_on_the_lattice(self):
-        """Every sphere is a copy shifted by sum k_c a_c, up to a vector of the new lattice."""
-        for count, cell in (((3, 2), [[1, 0], [0.3, 1.2]]), ((5, 1), HEXAGONAL), ((1, 4), [[1, 0], [-0.45, 0.9]])):
-            s = jammed(6, 3, dim=2, cell=cell)
-            t = s.tile(count)
-            self.assertEqual(t.n, 6 * count[0] * count[1])
-            np.testing.assert_array_equal(t.diameters, np.tile(s.diameters, count[0] * count[1]))
-            self.assertAlmostEqual(t.packing_fraction, s.packing_fraction, delta=1e-14)
-            for copy, (k1, k0) in enumerate(itertools.product(range(count[1]), range(count[0]))):
-                moved = t.positions[6 * copy : 6 * copy + 6] - s.positions - np.array([k0, k1]) @ s.cell
-                steps = moved @ np.linalg.inv(np.diag(count) @ s.cell)
-                np.testing.assert_allclose(steps, np.rint(steps), atol=1e-14)
-
     def test_contacts_and_forces_go_along(self):
         """The network of the copies is the one that their geometry gives, and its forces balance."""
         for s, count in (

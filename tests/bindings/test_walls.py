@@ -90,9 +90,6 @@ class Scenes(unittest.TestCase):
             self.assertEqual((jam.System.read(name).info.walls, jam.System.read(name).notes), (4, ""))
             with self.assertRaisesRegex(jam.errors.ArgumentError, "close other axes than the file"):
                 jam.System.read(name, walls="x")
-            name.write_text(text.replace(" container=brick", "").replace('pbc="T T F"', 'pbc="T T T"'))
-            with self.assertRaisesRegex(jam.errors.FormatError, "axis 2 is periodic there, but container= and walls= close it"):
-                jam.System.read(name)
             name.write_text(text.replace('walls="F F T"', 'walls="_JSON [false, 2, true]"'))
             with self.assertRaisesRegex(jam.errors.FormatError, "must be T or F"):
                 jam.System.read(name)

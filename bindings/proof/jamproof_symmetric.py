@@ -14,7 +14,6 @@ delta' + 2 D |B| r < 1 for a matrix B.
 """
 import copy
 from fractions import Fraction
-from operator import mul
 
 from jamproof import TWO, bounds, gap, integer, inverse_of, radius_of, refuse
 

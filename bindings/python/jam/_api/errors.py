@@ -5,7 +5,6 @@ import re
 
 from .. import raw
 from .exceptions import BY_STATUS, JamError
-from .generated import StatusCode
 
 
 class ClosedError(JamError, ValueError):

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from .exceptions import UnsupportedError
-from .arrays import Array, as_array, as_vector
+from .arrays import Array, as_array
 from .generated import JAM_MAX_DIM, Container
 
 

@@ -8,10 +8,10 @@ import numpy as np
 from .. import raw
 from .._api.arrays import Array, as_rows, unknown_array
 from .._api.calls import freeze, invoke, new_report, not_cancelled, same
-from .._api.generated import CheckReport, CrunchReport, ModeColumn, ModesWhich, RigidityReport, StatusCode
+from .._api.generated import CheckReport, CrunchReport, ModeColumn, ModesWhich
 from .._api.options import as_enum, option_struct
 from .._api.results import Contacts, Correlation, Modes
-from .._api.tuples import FlexResult, GapsResult, RefinedPositionsResult, StressStatesResult
+from .._api.tuples import FlexResult, StressStatesResult
 from .analysis import Analysis
 
 

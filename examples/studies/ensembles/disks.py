@@ -12,7 +12,7 @@ import sys
 import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
-from finite_size import collapse_tail
+from finite_size import Size, collapse_tail
 
 from jam import scaling
 
@@ -29,22 +29,6 @@ def protocol(n):
     )
 
 
-class Disks:
-    """Forces by class, gaps and coordination of the isostatic packings of one size: one array a packing."""
-
-    def __init__(self, e):
-        self.extended, self.localised, self.forces, self.gaps, self.z, rows = [], [], [], [], [], []
-        for entry in e:
-            if not entry.row["jammed"] or entry.row["excess_contacts"]:
-                continue
-            f, pairs, z, gaps = entry.read("forces", "pairs", "coordination", "gaps")
-            local = (z[pairs] == 3).any(axis=1)
-            self.extended.append(np.sort(f[~local])), self.localised.append(np.sort(f[local]))
-            self.forces.append(np.sort(f)), self.gaps.append(np.sort(gaps[gaps > 0]))
-            self.z.append(z[z > 0]), rows.append(entry.row)
-        self.rows = np.array(rows)
-
-
 def main():
     p = arguments(__doc__.splitlines()[0])
     p.add_argument("--sizes", type=int, nargs="+", help="N (small 64 128 256, large 256 ... 4096)")
@@ -54,7 +38,7 @@ def main():
     particles = o.particles or (1e6 if o.large else 6400)
     for n in o.sizes or ((256, 512, 1024, 2048, 4096) if o.large else (64, 128, 256)):
         e = ensemble(o, protocol(n), round(particles / n))
-        size = Disks(e)
+        size = Size(e, "mk", 2)  # no packing is left out for its order
         if len(size.rows) >= 4:
             sizes[n] = size
     figure, axes = plt.subplots(2, 2, figsize=(11, 8))

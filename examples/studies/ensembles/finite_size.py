@@ -47,13 +47,13 @@ def kept_entries(e, model):
 class Size:
     """What is looked at of all packings of one size: one array a packing."""
 
-    def __init__(self, e, model):
+    def __init__(self, e, model, dim=3):
         self.extended, self.localised, self.forces, self.gaps, self.z, rows = [], [], [], [], [], []
         self.clear = []  # gaps that touch no buckler
         for entry in kept_entries(e, model):
             f, pairs, z, gaps, ends = entry.read("forces", "pairs", "coordination", "gaps", "gaps/pair")
-            local = (z[pairs] == 4).any(axis=1)
-            clear = (gaps > 0) & (z[ends] != 4).all(axis=1)
+            local = (z[pairs] == dim + 1).any(axis=1)
+            clear = (gaps > 0) & (z[ends] != dim + 1).all(axis=1)
             self.extended.append(np.sort(f[~local]))
             self.localised.append(np.sort(f[local]))
             self.forces.append(np.sort(f))

@@ -115,9 +115,7 @@ def main():
         if not found:
             continue
         value, error = np.array(found).T
-        spread = value.std()
-        r.add("1", f"power of the distance in omega_s, end of the plateau, {text}", 0.5, value.mean(), np.hypot(error.mean(), spread))
-        r.add("1", f"the part of this error from level, range and correction, {text}", "none", spread)
+        r.add("1", f"power of the distance in omega_s, end of the plateau, {text}", 0.5, value.mean(), np.hypot(error.mean(), value.std()))
     value, error = np.array([low_power(made, *span) for span in WINDOWS]).T
     r.add("1", "power of omega in D below omega_s, with pre-stress", 2.0, value.mean(), np.hypot(error.mean(), value.std()))
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.6))

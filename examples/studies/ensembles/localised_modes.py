@@ -7,12 +7,11 @@ b is the median displacement of a mode over its norm, Sigma = s_return / s_plus;
 measure. Mean field: p(b) ~ b^theta_l for localised modes, and b independent of W = f / displacement. For Mari-Kurchan packings and
 near-crystals theta_l is about 0, which breaks gamma >= (1 - theta_l) / 2. Localised: at a buckler. The other criterion takes the smallest
 force of each sphere as localised and its median force as extended. Spheres and Mari-Kurchan packings are those of final_network.py;
-near-crystals are FCC lattices of 108 spheres whose diameters spread by 1 %, grown as in near_crystals.py. Small: N = 128. Large: 256, 512.
+near-crystals are FCC lattices of 108 spheres whose diameters spread by 1 %, grown at G = 1e-3 to p = 1e7. Small: N = 128. Large: 256, 512.
 """
 import numpy as np
 from common import THETA_E, THETA_L, Results, arguments, mean_error, seeded
 from final_network import MODELS, SEEDS, SIZES, network, networks
-from near_crystals import protocol
 from thermodynamics import fcc
 
 import jam
@@ -24,10 +23,9 @@ LOCALISED, SMALLEST, MEDIAN = (int(c) for c in (jam.ContactClass.LOCALISED, jam.
 
 def near_crystal(seed, deviation=1e-2):
     """FCC sites and log-normal diameters."""
-    stages = protocol(108, deviation)["stages"]
     sizes = np.exp(np.log1p(deviation**2) ** 0.5 * np.random.default_rng(seed).normal(size=108))
     with fcc(3, 0.7, sizes, seed) as packing:
-        packing.compress([(stage["growth_rate"], stage["pressure"]) for stage in stages])
+        packing.compress([(1e-3, 1e7)])
         return network(packing, "crystal")
 
 

@@ -10,30 +10,16 @@ from pathlib import Path
 import jam
 from packings import InFolder
 import numpy as np
+from test_overlapping_solid import soft
 from test_pore_space import open_edges, triangles, volume
 
 PACK = os.environ.get("JAM_PACK")
-
-
-def soft(x, radii, **options):
-    return jam.System.from_arrays(np.asarray(x, float), 2 * np.asarray(radii, float), dim=3, overlap="allow", **options)
 
 
 def turned(n, seed):
     """Unit vectors."""
     v = np.random.default_rng(seed).normal(size=(n, 3))
     return v / np.linalg.norm(v, axis=1)[:, None]
-
-
-def inside_polyhedron(corners, points):
-    """How often a closed surface turns around each point: solid angles of its triangles (van Oosterom and Strackee 1983)."""
-    total = np.zeros(len(points))
-    for t in corners.astype(float):
-        a, b, c = (t[k] - points for k in range(3))
-        la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-        top = np.einsum("ij,ij->i", a, np.cross(b, c))
-        total += 2 * np.arctan2(top, la * lb * lc + (a * b).sum(1) * lc + (b * c).sum(1) * la + (c * a).sum(1) * lb)
-    return total / (4 * math.pi)
 
 
 class Folder(InFolder):
@@ -63,14 +49,6 @@ class Overlaps(Folder):
                     lost.append(1 - report.volume / exact)
                 self.assertTrue(lost[0] > lost[1] > lost[2] > 0, lost)
                 self.assertLess(lost[2], 0.3 * 0.1**2)
-
-    def test_no_point_lies_in_the_surface_twice(self):
-        s = soft([[0.35, 0.5, 0.5], [0.65, 0.5, 0.52]], [0.2, 0.18])
-        _, corners = self.mesh(s, edge=0.5)
-        points = np.array([0.5, 0.5, 0.51]) + np.random.default_rng(2).normal(scale=0.08, size=(300, 3))
-        times = inside_polyhedron(corners, points)
-        self.assertLess(np.abs(times - np.rint(times)).max(), 1e-3)
-        self.assertEqual(set(np.rint(times)), {0, 1})
 
     def test_soft_packings(self):
         """Chains of overlapping pairs and cut images; slightly soft packings in full."""

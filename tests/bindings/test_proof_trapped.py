@@ -11,7 +11,7 @@ import numpy as np
 
 import jam
 from proof_files import File, dropped, file_of, jamproof, rattler_into_neighbour, scene_of, value, word
-from test_proof_bounds import checker, crystal, square_lattice
+from test_proof_bounds import checker, fcc, square_lattice
 
 
 def disks(n, seed):
@@ -161,9 +161,7 @@ class Trapped(unittest.TestCase):
             self.assertIsInstance(trapped(f.text()), str)
 
     def test_a_crystal_is_trapped_and_stays_so_when_rounded(self):
-        base = [(0, 0, 0), (0.5, 0.5, 0), (0.5, 0, 0.5), (0, 0.5, 0.5)]
-        rows = [tuple((g + b) / 2 for g, b in zip(grid, x)) for grid in np.ndindex(2, 2, 2) for x in base]
-        text = "\n".join(crystal(rows, Fraction(1, 8), 1)) + "\n"
+        text = "\n".join(fcc()) + "\n"
         found = trapped(text)
         self.assertIsInstance(found, dict, found)
         self.assertLess(found["inner"], 1e-30)

@@ -28,13 +28,6 @@ class Runs(unittest.TestCase):
             np.testing.assert_allclose(moved.mean(0)[:2], 0, atol=1e-12)
             self.assertGreater(abs(moved.mean(0)[2]), 1e-6)
 
-    def test_mean_pressure_is_that_of_one_long_run(self):
-        s = jam.System.random(n=100, seed=4, packing_fraction=0.25, **NARROW["slit"])
-        s.run(collisions_per_particle=50)
-        runs = s.isoconf([200.0], runs=30)
-        p = s.run(collisions_per_particle=2500).pressure
-        self.assertLess(abs(runs.series["pressure"].sum(0)[-1] / 30 / p - 1), 0.02)
-
 
 class Observed(unittest.TestCase):
     def test_histograms_of_a_dilute_gas_are_1_beside_any_walls(self):

@@ -50,26 +50,22 @@ CASE(cubic_lattices) {
 /* Contacts, report and positions are those of the crunch, before and after. */
 CASE(leaves_the_handle_alone) {
   jam_crunch_report before = {.struct_size = sizeof before}, after = {.struct_size = sizeof after};
-  const double *x;
-  double kept[3 * 64];
-  size_t len = 0, m = 0, rows = 0;
-  DEFAULTS(create, o);
-  o.n = 64;
-  jam_system *sys = created(&o);
+  size_t m = 0, rows = 0;
+  jam_system *sys = random_spheres(3, 64, 0.0, 1), *kept;
   check(sys, 1, JAM_NOT_JAMMED);
   assert_int_equal(jam_contacts(sys, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_crunch(sys, NULL, &before), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
-  memcpy(kept, x, sizeof kept);
+  kept = copy_of(sys);
   const jam_check_report r = check(sys, 1, JAM_OK);
   assert_true(r.jammed == JAM_VERDICT_YES && r.reason == JAM_CHECK_PROOF && r.contacts == before.contacts);
   assert_true(r.force_residual < 1e-10 && r.rigidity_margin > 1e-10 && r.max_contact_gap < 1e-10);
   assert_true(r.min_gap == before.min_gap && r.crunch_contacts == -1 && isnan(r.crunch_displacement_max));
-  assert_memory_equal(kept, x, sizeof kept);
+  same(kept, sys);
   assert_int_equal(jam_get_crunch_report(sys, &after), JAM_OK);
   assert_memory_equal(&before, &after, sizeof before);
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, NULL, 0, &rows), JAM_OK);
   assert_true(rows > 0);
+  jam_destroy(kept);
   jam_destroy(sys);
 }
 
@@ -88,20 +84,15 @@ CASE(overlaps) {
 /* A crunch of the copy that does not end in time leaves the verdict that was there. */
 CASE(crunch_out_of_time) {
   jam_check_report r = {.struct_size = sizeof r}, whole = r;
-  jam_system *sys = NULL, *rounded = NULL;
-  const double *x, *sigma;
+  jam_system *sys = random_spheres(3, 64, 0.0, 1);
+  const double *const x = view_of(sys, JAM_VIEW_POSITIONS);
   double few[3 * 64];
-  size_t len = 0;
   DEFAULTS(create, start);
-  start.n = 64, start.seed = 1;
-  assert_int_equal(jam_create(&start, NULL, &sys), JAM_OK);
+  start.overlap = JAM_OVERLAP_ALLOW;
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
-  for (size_t k = 0; k < len; ++k) few[k] = floor(x[k] * 1e6 + 0.5) * 1e-6;
-  start.overlap = JAM_OVERLAP_ALLOW;
-  assert_int_equal(create_from(&start, few, len, sigma, 1, &rounded), JAM_OK);
+  for (size_t k = 0; k < 3 * 64; ++k) few[k] = floor(x[k] * 1e6 + 0.5) * 1e-6;
+  jam_system *rounded = created_from(&start, few, 3 * 64, view_of(sys, JAM_VIEW_DIAMETERS), 1);
   DEFAULTS(check, o);
   o.crunch = 0;
   assert_int_equal(jam_check_packing(rounded, &o, &whole), JAM_AMBIGUOUS);

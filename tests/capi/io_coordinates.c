@@ -1,16 +1,12 @@
 /* What coordinates of a file mean: origin, cell, planes and frames. What was changed stands in jam_notes. */
 #include "io_helpers.h"
-#include "systems.h"
 
 #define BOX "Lattice=\"1 0 0 0 1 0 0 0 1\" "
 #define P "Properties=pos:R:3:radius:R:1 "
 /* Keys that change what coordinates mean are honoured, the others named. */
 CASE(keys_of_xyz) {
-  jam_system *sys;
-  const double *x;
-  size_t len;
-  sys = read_text("1\n" BOX P "Origin=\"-0.5 -0.25 1\"\n-0.25 0.25 1.125 .1\n");
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
+  jam_system *sys = read_text("1\n" BOX P "Origin=\"-0.5 -0.25 1\"\n-0.25 0.25 1.125 .1\n");
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(x[0] == 0.25 && x[1] == 0.5 && x[2] == 0.125);
   assert_string_equal(jam_notes(sys),
                       "the corner of the cell is at -0.5 -0.25 1 in the file: positions are measured from there");
@@ -19,8 +15,8 @@ CASE(keys_of_xyz) {
   assert_string_equal(jam_notes(sys), "keys of the file that were not read: Time, energy");
   jam_destroy(sys);
   sys = read_text("1\n" BOX P "dim=2 Origin=\"-0.5 -0.5 0\"\n-.25 .25 2 .1\n");
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
-  assert_true(len == 2 && x[0] == 0.25 && x[1] == 0.75);
+  x = view_of(sys, JAM_VIEW_POSITIONS);
+  assert_true(info_of(sys).dim == 2 && x[0] == 0.25 && x[1] == 0.75);
   assert_non_null(strstr(jam_notes(sys), "the third coordinate, 2 of every disk, was omitted"));
   jam_destroy(sys);
   expect_refused("1\n" BOX P "Origin=\"0 1\"\n.1 .2 .3 .1\n", JAM_E_FORMAT, "line 2: Origin has 2 numbers");

@@ -2,7 +2,6 @@
  * and what was changed on the way stands in jam_notes and in the log. */
 #include <math.h>
 #include "io_helpers.h"
-#include "systems.h"
 
 static jam_create_options defaults(void) {
   DEFAULTS(create, o);
@@ -11,15 +10,8 @@ static jam_create_options defaults(void) {
 
 /* Three spheres at the places that all texts below write. */
 static void same_three(jam_system *sys) {
-  static const double want[9] = {0.1, 0.2, 0.3, 0.6, 0.7, 0.8, 0.35, 0.9, 0.15};
-  const double *x, *s;
-  size_t len, k;
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
-  assert_int_equal(len, 9);
-  for (k = 0; k < 9; ++k) assert_true(x[k] == want[k]);
-  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
-  for (k = 0; k < 3; ++k) assert_true(s[k] == 0.2);
-  jam_destroy(sys);
+  static const double want[9] = {0.1, 0.2, 0.3, 0.6, 0.7, 0.8, 0.35, 0.9, 0.15}, sizes[3] = {0.2, 0.2, 0.2};
+  expect(sys, 3, 3, want, sizes);
 }
 
 CASE(odd_plain_text) {
@@ -51,18 +43,15 @@ CASE(a_box_that_is_not_named) {
   o.box = 2.0;
   sys = read_as(text, NULL, &o);
   assert_string_equal(jam_notes(sys), "");
-  const jam_info info = info_of(sys);
-  assert_true(info.box == 2.0);
+  assert_true(info_of(sys).box == 2.0);
   jam_destroy(sys);
   jam_destroy(read_text("2\n2\n0.1\n0.1 1.000000\n-0.0000004 0.5\n")); /* rounding of six digits */
 }
 
 CASE(tables) {
+  static const double corner[4] = {.1, .2, .3, .4}, tenth = 0.1;
   jam_create_options o = defaults();
-  jam_system *sys;
-  const double *s;
-  size_t len;
-  sys = read_text("0.1 0.2 0.3 0.1\n0.6 0.7 0.8 0.1\n0.35 0.9 0.15 0.1\n");
+  jam_system *sys = read_text("0.1 0.2 0.3 0.1\n0.6 0.7 0.8 0.1\n0.35 0.9 0.15 0.1\n");
   assert_non_null(
       strstr(jam_notes(sys), "warning: the file does not name its 4 columns: 3 coordinates and the radius"));
   assert_non_null(strstr(jam_notes(sys), "the file names no box: its side is taken as 1"));
@@ -72,9 +61,7 @@ CASE(tables) {
   same_three(read_text("Radius id X Z Y\n0.1 7 0.1 0.3 0.2\n0.1 8 0.6 0.8 0.7\n0.1 9 0.35 0.15 0.9\n"));
   sys = read_text("x1 x2 x3 x4 d mass\n.1 .2 .3 .4 .1 7\n");
   assert_non_null(strstr(jam_notes(sys), "columns of the file that were not read: mass"));
-  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
-  assert_true(len == 1 && s[0] == 0.1);
-  jam_destroy(sys);
+  expect(sys, 4, 1, corner, &tenth);
   o.dim = 2;
   o.box = 4.0;
   jam_destroy(read_as("1 2 0.5\n3 1 0.25\n", NULL, &o));
@@ -93,7 +80,6 @@ CASE(tables) {
 CASE(odd_xyz) {
   jam_create_options o = defaults();
   jam_system *sys;
-  jam_info info;
 #define R "1 0.1 0.2 0.3 0.1\n1 0.6 0.7 0.8 0.1\n1 0.35 0.9 0.15 0.1\n"
   same_three(
       read_text("3\nLattice={1 0 0 0 1 0 0 0 1} Properties=type:I:1:pos:R:3:radius:R:1 pbc=\"TRUE True t\"\n" R));
@@ -120,9 +106,7 @@ CASE(odd_xyz) {
                  "needs dim=2");
   o.dim = 2;
   sys = read_as("1\n" BOX "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n.1 .2 7 .1\n", NULL, &o);
-  info.struct_size = sizeof info;
-  jam_get_info(sys, &info);
-  assert_int_equal(info.dim, 2);
+  assert_int_equal(info_of(sys).dim, 2);
   jam_destroy(sys);
 }
 
@@ -130,19 +114,16 @@ CASE(frames) {
   jam_create_options o = defaults();
   static const char frame[] = "1\n" BOX "Properties=pos:R:3:radius:R:1\n%g .2 .3 .1\n";
   char text[600], cut[600];
-  const double *x;
   size_t len, k;
   jam_system *sys;
   for (len = k = 0; k < 3; ++k) len += (size_t)snprintf(text + len, sizeof text - len, frame, 0.125 * (double)(k + 1));
   sys = read_text(text);
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &k);
-  assert_true(x[0] == 0.375);
+  assert_true(view_of(sys, JAM_VIEW_POSITIONS)[0] == 0.375);
   assert_string_equal(jam_notes(sys), "the last of 3 frames was read; frame=0 to 2 read others");
   jam_destroy(sys);
   for (o.frame = -3; o.frame <= 2; ++o.frame) {
     sys = read_as(text, NULL, &o);
-    jam_view(sys, JAM_VIEW_POSITIONS, &x, &k);
-    assert_true(x[0] == 0.125 * (double)((o.frame + 3) % 3 + 1));
+    assert_true(view_of(sys, JAM_VIEW_POSITIONS)[0] == 0.125 * (double)((o.frame + 3) % 3 + 1));
     jam_destroy(sys);
   }
   expect_refused_as(text, NULL, &o, JAM_E_ARGUMENT, "frame is 3, the file has 3 (0 to 2");

@@ -106,6 +106,16 @@ static inline void expect_refused(const char *text, jam_status status, const cha
   expect_refused_as(text, NULL, NULL, status, part);
 }
 
+/* The system has these numbers; it is freed. */
+static inline void expect(jam_system *sys, int32_t dim, int64_t n, const double *x, const double *diameters) {
+  const jam_info info = info_of(sys);
+  assert_int_equal(info.dim, dim);
+  assert_int_equal(info.n, n);
+  assert_memory_equal(view_of(sys, JAM_VIEW_POSITIONS), x, (size_t)(n * dim) * sizeof *x);
+  assert_memory_equal(view_of(sys, JAM_VIEW_DIAMETERS), diameters, (size_t)n * sizeof *diameters);
+  jam_destroy(sys);
+}
+
 /* n spheres at random, diameters 50:50 with the given ratio. */
 static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, double box) {
   double *diameters = (double *)malloc((size_t)n * sizeof *diameters);

@@ -1,22 +1,14 @@
 /* LAMMPS data and dumps: each line is understood as LAMMPS understands it, or refused with its number. */
 #include <math.h>
 #include "io_helpers.h"
-#include "systems.h"
 
 /* The same spheres, to a few roundings of the box. */
 static void same_spheres(jam_system *sys, int32_t dim, size_t n, const double *x, const double *sizes, double box) {
-  const double *y, *s;
-  size_t len, k;
-  const jam_info info = info_of(sys);
-  assert_int_equal(info.dim, dim);
-  assert_int_equal(info.n, n);
-  assert_true(fabs(info.box / box - 1) < 1e-14);
-  jam_view(sys, JAM_VIEW_POSITIONS, &y, &len);
-  for (k = 0; k < len; ++k)
+  const double *const y = view_of(sys, JAM_VIEW_POSITIONS);
+  assert_true(fabs(info_of(sys).box / box - 1) < 1e-14);
+  for (size_t k = 0; k < (size_t)dim * n; ++k)
     if (!(fabs(x[k] - y[k]) < 1e-14 * box)) fail_msg("coordinate %zu is %.17g, not %.17g", k, y[k], x[k]);
-  jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
-  for (k = 0; k < len; ++k) assert_true(s[k] == sizes[k]);
-  jam_destroy(sys);
+  expect(sys, dim, (int64_t)n, y, sizes);
 }
 
 #define BOX "0 2 xlo xhi\n0 2 ylo yhi\n0 2 zlo zhi\n"
@@ -164,8 +156,7 @@ CASE(tilted_dumps) {
       "ITEM: ATOMS radius xs ys zs\n0.1 0.125 0.2 0.5\n");
   jam_get_cell(sys, cell, 4, NULL);
   assert_memory_equal(cell, flat, sizeof flat);
-  jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
-  assert_int_equal(len, 2);
+  x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(fabs(x[0] - at[0]) < 1e-15 && fabs(x[1] - at[1]) < 1e-15);
   jam_destroy(sys);
 }

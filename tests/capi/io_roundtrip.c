@@ -2,7 +2,6 @@
 #include <locale.h>
 #include "comma.h"
 #include "io_helpers.h"
-#include "systems.h"
 
 static void round_trip(int32_t dim, double ratio, double box, const char *name, int32_t format) {
   jam_system *sys = some_packing(dim, 60, ratio, box), *back = NULL;

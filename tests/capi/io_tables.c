@@ -1,26 +1,11 @@
 /* Tables as other programs write them, what the caller says of a file that does not say it (jam_read_as), cells of the
  * code of Torquato and Jiao, frames without spheres, and what jam_formats lists. */
 #include "io_helpers.h"
-#include "systems.h"
 
 static jam_system *read_in(const char *text, const char *layout, double box) {
   DEFAULTS(create, o);
   o.box = box;
   return read_as(text, layout, &o);
-}
-
-/* The system has these numbers; it is freed. */
-static void expect(jam_system *sys, int32_t dim, int64_t n, const double *x, const double *diameters) {
-  const double *view;
-  size_t len;
-  const jam_info info = info_of(sys);
-  assert_int_equal(info.dim, dim);
-  assert_int_equal(info.n, n);
-  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
-  assert_memory_equal(view, x, len * sizeof *x);
-  jam_view(sys, JAM_VIEW_DIAMETERS, &view, &len);
-  assert_memory_equal(view, diameters, len * sizeof *diameters);
-  jam_destroy(sys);
 }
 
 static const double two[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5}, sizes[] = {0.4, 0.5};

@@ -69,8 +69,6 @@ CASE(growth_ends_at_the_own_image) {
     const int d = 2 + (int)(seed % 5), n = 2 + (int)(seed % 3);
     const double h = pow(10.0, -0.2 - 0.03 * (double)(seed % 40));
     double cell[64] = {0};
-    const double *sigma = NULL;
-    size_t len = 0;
     int c;
     jam_system *sys = NULL;
     jam_status status;
@@ -87,7 +85,7 @@ CASE(growth_ends_at_the_own_image) {
     g.growth_rate = pow(10.0, -1.0 + (double)(seed % 4)), g.pressure = 1e5;
     status = jam_compress(sys, &g, &r);
     if (status < 0) fail_msg("d = %d, h = %g: %s", d, h, jam_last_error());
-    assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
+    const double *const sigma = view_of(sys, JAM_VIEW_DIAMETERS);
     assert_true(sigma[0] <= h * (1.0 + 1e-12));
     if (status == JAM_NOT_CONVERGED && sigma[0] > 0.999 * h) {
       ++met;
@@ -128,22 +126,17 @@ CASE(a_very_dilute_gas_runs_on) {
   int64_t seed;
   int k;
   for (seed = 1; seed <= 10; ++seed) {
-    jam_system *sys = NULL, *again = NULL;
-    const double *x = NULL, *sigma = NULL;
-    size_t coordinates = 0, n = 0;
     DEFAULTS(create, o);
     DEFAULTS(run, r);
     SIZED(jam_md_report, report);
     o.dim = 2, o.n = 5, o.seed = seed, o.packing_fraction = 5 * volume_of_sphere(2, 5e-5);
-    assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
+    jam_system *sys = created(&o), *again;
     r.collisions_per_particle = 20.0;
     for (k = 0; k < 3; ++k) {
       if (jam_run(sys, &r, &report) != JAM_OK) fail_msg("seed %d: %s", (int)seed, jam_last_error());
       assert_true(report.max_overlap < 1e-8); /* 3e-9 were seen; eps (L / sigma)^2 is 9e-8 */
     }
-    assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &coordinates), JAM_OK);
-    assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &n), JAM_OK);
-    assert_int_equal(create_from(&o, x, coordinates, sigma, n, &again), JAM_OK);
+    again = created_from(&o, view_of(sys, JAM_VIEW_POSITIONS), 10, view_of(sys, JAM_VIEW_DIAMETERS), 5);
     jam_destroy(again);
     jam_destroy(sys);
   }

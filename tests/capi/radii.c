@@ -27,10 +27,8 @@ CASE(weights_decide) {
   const double weights[2] = {1.0, 3.0};
   jam_system *sys = square(2, 1);
   SIZED(jam_radii_report, r);
-  const double *sigma = NULL;
-  size_t len = 0;
   assert_int_equal(jam_maximise_radii(sys, NULL, weights, 2, &r), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
+  const double *const sigma = view_of(sys, JAM_VIEW_DIAMETERS);
   assert_true(sigma[1] > sigma[0] && fabs(r.value - 0.5 * (sigma[0] + 3.0 * sigma[1])) < 1e-15);
   /* the large disk fills the square, the other its corner: (1/2 - r) sqrt(2) = 1/2 + r */
   const double corner = 0.5 * (sqrt(2.0) - 1.0) / (sqrt(2.0) + 1.0);
@@ -41,24 +39,17 @@ CASE(weights_decide) {
 /* Two moments fix the ratio of two disks, whose radii add up to 2 - sqrt(2) in a square. */
 CASE(moments_grow_by_one_factor) {
   const double ratio[2] = {1.0, 1.5};
-  jam_system *sys = NULL;
-  const double *sigma = NULL;
   double before[2], square;
-  size_t len = 0;
   DEFAULTS(create, c);
-  jam_start given;
-  memset(&given, 0, sizeof given);
-  given.struct_size = sizeof given, given.diameters = ratio, given.diameters_len = 2;
   c.n = 2, c.dim = 2, c.seed = 1, c.walls = 3;
-  assert_int_equal(jam_create(&c, &given, &sys), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
+  jam_system *sys = created_from(&c, NULL, 0, ratio, 2);
+  const double *const sigma = view_of(sys, JAM_VIEW_DIAMETERS);
   before[0] = sigma[0], before[1] = sigma[1];
   DEFAULTS(radii, o);
   SIZED(jam_radii_report, r);
   assert_true(o.moments == 0 && o.exponent_1 == 1.0 && o.exponent_4 == 4.0);
   o.moments = 2;
   assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_OK);
-  assert_int_equal(jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len), JAM_OK);
   assert_true(r.maximum && fabs(0.5 * (sigma[0] + sigma[1]) - (2.0 - sqrt(2.0))) < 1e-14);
   assert_true(fabs(sigma[0] / before[0] / r.value - 1.0) < 1e-14 && fabs(sigma[1] / before[1] / r.value - 1.0) < 1e-14);
   assert_true(r.moment_residual < 1e-14 && !isnan(r.multiplier_2) && isnan(r.multiplier_3));
@@ -72,12 +63,10 @@ CASE(moments_grow_by_one_factor) {
 CASE(a_cell_deforms_at_fixed_volume) {
   double cell[4];
   size_t len = 0;
-  DEFAULTS(create, c);
   DEFAULTS(radii, o);
   SIZED(jam_radii_report, r);
   SIZED(jam_crunch_report, verdict);
-  c.n = 1, c.dim = 2, c.seed = 1;
-  jam_system *sys = created(&c);
+  jam_system *sys = random_spheres(2, 1, 0.0, 1);
   assert_int_equal(o.strain, JAM_STRAIN_NONE);
   o.strain = JAM_STRAIN_FREE;
   assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_OK);

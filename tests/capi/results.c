@@ -130,8 +130,7 @@ static int knows(const jam_system *sys) {
 static const double shear[4] = {0.0, 1e-3, 0.0, 0.0};
 
 static void each_move(int move, jam_system *sys) {
-  const double *view;
-  size_t len;
+  const double *const x = view_of(sys, JAM_VIEW_POSITIONS);
   DEFAULTS(run, run);
   run.collisions_per_particle = 1e6;
   DEFAULTS(monte_carlo, mc);
@@ -142,8 +141,7 @@ static void each_move(int move, jam_system *sys) {
       assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
       break;
     case 1:
-      assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &view, &len), JAM_OK);
-      assert_int_equal(jam_set_positions(sys, view, len), JAM_OK);
+      assert_int_equal(jam_set_positions(sys, x, 100), JAM_OK);
       break;
     case 2:
       assert_true(jam_strain(sys, shear, 4) == JAM_E_OVERLAP); /* refused: nothing moved */
@@ -164,13 +162,10 @@ static void each_move(int move, jam_system *sys) {
 
 CASE(every_move_clears_all) {
   int move;
-  size_t len;
-  const double *v;
   jam_system *jammed = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
   crunch(jammed, JAM_STRAIN_NONE, 0, 0.0, 0);
-  assert_int_equal(jam_view(jammed, JAM_VIEW_POSITIONS, &v, &len), JAM_OK);
-  assert_int_equal(jam_set_velocities(jammed, v, len), JAM_OK); /* any will do */
-  assert_int_equal(knows(jammed), 3);                           /* velocities move nothing */
+  assert_int_equal(jam_set_velocities(jammed, view_of(jammed, JAM_VIEW_POSITIONS), 100), JAM_OK); /* any will do */
+  assert_int_equal(knows(jammed), 3); /* velocities move nothing */
   for (move = 0; move < 6; ++move) {
     jam_system *sys = copy_of(jammed);
     each_move(move, sys);
@@ -183,8 +178,6 @@ CASE(every_move_clears_all) {
 /* A pressure that dynamics has measured is one of its own packing. */
 CASE(pressures_are_of_this_packing) {
   jam_system *grown = start(2, 50, 0.4, JAM_OVERLAP_REFUSE), *again;
-  const double *v;
-  size_t len;
   int move;
   assert_true(isnan(info_of(grown).pressure));
   run(grown, 20);
@@ -196,11 +189,10 @@ CASE(pressures_are_of_this_packing) {
   for (move = 0; move < 4; ++move) {
     jam_system *sys = copy_of(grown);
     assert_true(info_of(sys).pressure == info_of(grown).pressure);
-    assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &v, &len), JAM_OK);
     if (move == 0) assert_true(crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0) >= 0);
     if (move == 1) assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
     if (move == 2) assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
-    if (move == 3) assert_int_equal(jam_set_positions(sys, v, len), JAM_OK);
+    if (move == 3) assert_int_equal(jam_set_positions(sys, view_of(sys, JAM_VIEW_POSITIONS), 100), JAM_OK);
     assert_true(isnan(info_of(sys).pressure));
     jam_destroy(sys);
   }

@@ -12,7 +12,7 @@ static void expect_overlap(jam_status status) {
 }
 
 CASE(hard_verbs_refuse_overlaps) {
-  jam_system *sys = soft_start(60, 0.7, 1), *copy = NULL;
+  jam_system *sys = soft_start(60, 0.7, 1);
   jam_estimate_report e = {.struct_size = sizeof e};
   expect_overlap(jam_run(sys, NULL, NULL));
   expect_overlap(jam_compress(sys, NULL, NULL));
@@ -24,29 +24,21 @@ CASE(hard_verbs_refuse_overlaps) {
   /* What the text advises mends it. */
   double factor = 0.0;
   assert_int_equal(sscanf(strstr(jam_last_error(), "(sys, ") + 6, "%lf", &factor), 1);
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  jam_system *copy = copy_of(sys);
   assert_int_equal(jam_scale_diameters(copy, factor), JAM_OK);
-  DEFAULTS(run, run);
-  run.collisions_per_particle = 1.0;
-  assert_int_equal(jam_run(copy, &run, NULL), JAM_OK);
+  run(copy, 1.0);
   jam_destroy(copy);
   /* Setters take overlaps here, and nowhere else. */
-  const double *x;
-  size_t len;
-  assert_int_equal(jam_view(sys, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
-  double *same = malloc(len * sizeof *same);
-  for (size_t k = 0; k < len; ++k) same[k] = 0.5 * x[k];
-  assert_int_equal(jam_set_positions(sys, same, len), JAM_OK);
+  double closer[180];
+  for (size_t k = 0; k < 180; ++k) closer[k] = 0.5 * view_of(sys, JAM_VIEW_POSITIONS)[k];
+  assert_int_equal(jam_set_positions(sys, closer, 180), JAM_OK);
   assert_int_equal(jam_scale_diameters(sys, 1.01), JAM_OK);
   assert_int_equal(jam_scale_diameters(sys, 1e3), JAM_E_OVERLAP); /* wider than the box */
   jam_system *hard = NULL;
   assert_int_equal(jam_create(NULL, NULL, &hard), JAM_E_ARGUMENT);
-  DEFAULTS(create, o);
-  o.n = 60;
-  assert_int_equal(jam_create(&o, NULL, &hard), JAM_OK);
+  hard = random_spheres(3, 60, 0.0, 1);
   SAYS(jam_relax(hard, NULL, NULL), JAM_E_STATE, "JAM_OVERLAP_ALLOW");
   assert_int_equal(jam_decompress(hard, NULL, NULL), JAM_E_STATE);
-  free(same);
   jam_destroy(hard);
   jam_destroy(sys);
 }

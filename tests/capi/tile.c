@@ -47,16 +47,13 @@ CASE(one_copy_has_the_bits_of_the_packing) {
 CASE(copies_of_copies_are_copies) {
   const int32_t along_x[2] = {2, 1}, along_y[2] = {1, 3}, both[2] = {2, 3};
   jam_system *sys = crunched(2, 3), *half = NULL, *twice = NULL, *at_once = NULL;
-  const double *x, *y;
-  size_t len, needed, contacts;
+  size_t needed, contacts;
   assert_int_equal(jam_tile(sys, along_x, 2, &half), JAM_OK);
   assert_int_equal(jam_tile(half, along_y, 2, &twice), JAM_OK);
   assert_int_equal(jam_tile(sys, both, 2, &at_once), JAM_OK);
-  assert_int_equal(jam_view(twice, JAM_VIEW_POSITIONS, &x, &len), JAM_OK);
-  assert_int_equal(jam_view(at_once, JAM_VIEW_POSITIONS, &y, &needed), JAM_OK);
-  assert_int_equal(len, 2 * 6 * N);
-  assert_int_equal(needed, len);
-  for (size_t k = 0; k < len; ++k) assert_true(x[k] - y[k] < 1e-15 && y[k] - x[k] < 1e-15);
+  const double *const x = view_of(twice, JAM_VIEW_POSITIONS), *const y = view_of(at_once, JAM_VIEW_POSITIONS);
+  assert_true(info_of(twice).n == 6 * N && info_of(at_once).n == 6 * N);
+  for (size_t k = 0; k < 2 * 6 * N; ++k) assert_true(x[k] - y[k] < 1e-15 && y[k] - x[k] < 1e-15);
   assert_int_equal(jam_forces(sys, NULL, 0, &contacts), JAM_OK);
   assert_same(twice, at_once, jam_forces);
   assert_int_equal(jam_forces(at_once, NULL, 0, &needed), JAM_OK);

@@ -27,16 +27,14 @@ CASE(random_start_lies_inside) {
   for (int k = 0; k < WALLED; ++k) {
     const walled *s = &walled_scenes[k];
     jam_system *sys = NULL;
-    const double *x, *sigma;
     double sum = 0.0, areas = 0.0;
-    size_t len;
+    const size_t len = 60;
     assert_int_equal(create_walled(s, 60, 0.15, 7, NULL, &sys), JAM_OK);
     const jam_info info = info_of(sys);
     assert_int_equal(info.container, s->container);
     assert_int_equal(info.walls, s->walls);
     assert_true(fabs(info.volume / volume(s) - 1.0) < 1e-14);
-    jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
-    jam_view(sys, JAM_VIEW_DIAMETERS, &sigma, &len);
+    const double *const x = view_of(sys, JAM_VIEW_POSITIONS), *const sigma = view_of(sys, JAM_VIEW_DIAMETERS);
     for (size_t i = 0; i < len; ++i) sum += pow(sigma[i], s->dim) * (s->dim == 2 ? M_PI / 4.0 : M_PI / 6.0);
     assert_true(fabs(sum / volume(s) / 0.15 - 1.0) < 1e-12 && fabs(info.packing_fraction / 0.15 - 1.0) < 1e-12);
     for (int w = 0; w < count_walls(sys); ++w) {

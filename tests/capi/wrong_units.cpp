@@ -6,8 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "start.h"
-#include "test.h"
+#include "steps.h"
 
 namespace {
 
@@ -31,16 +30,7 @@ jam_status create(const std::vector<double> &x, double diameter, int32_t overlap
 jam_system *soft_disks(double box, double packing_fraction) {
   DEFAULTS(create, o);
   o.dim = 2, o.n = 40, o.box = box, o.packing_fraction = packing_fraction, o.overlap = JAM_OVERLAP_ALLOW;
-  jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
-  return sys;
-}
-
-std::vector<double> view_of(const jam_system *sys, int32_t array) {
-  const double *view = nullptr;
-  size_t len = 0;
-  assert_int_equal(jam_view(sys, array, &view, &len), JAM_OK);
-  return std::vector<double>(view, view + len);
+  return created(&o);
 }
 
 CASE(diameters_of_the_box) {
@@ -52,19 +42,14 @@ CASE(diameters_of_the_box) {
     jam_system *small = nullptr;
     assert_int_equal(create(x, diameter, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &sys), JAM_OK);
     assert_int_equal(create(x, 0.01, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &small), JAM_OK);
-    const double *a = nullptr, *b = nullptr;
-    size_t len = 0;
-    jam_view(sys, JAM_VIEW_DIAMETERS, &a, &len), jam_view(small, JAM_VIEW_DIAMETERS, &b, &len);
+    const double *const a = view_of(sys, JAM_VIEW_DIAMETERS), *const b = view_of(small, JAM_VIEW_DIAMETERS);
     assert_true(std::fabs(a[0] - b[0]) < 1e-12 * b[0]);
     jam_destroy(sys), jam_destroy(small);
   }
 }
 
 CASE(radii_of_boxes) {
-  DEFAULTS(create, o);
-  o.n = 20000, o.packing_fraction = 0.2;
-  jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
+  jam_system *sys = random_spheres(3, 20000, 0.0, 1);
   size_t needed = 0;
   SAYS(jam_gaps(sys, 900.0, 0, nullptr, 0, nullptr, 0, &needed), JAM_E_MEMORY, "pairs");
   jam_destroy(sys);
@@ -74,21 +59,15 @@ CASE(radii_of_boxes) {
 CASE(slow_velocities) {
   std::vector<double> ends[2];
   for (int k = 0; k < 2; ++k) {
-    DEFAULTS(create, o);
-    DEFAULTS(run, r);
-    o.dim = 2, o.n = 32, o.packing_fraction = 0.5;
-    jam_system *sys = nullptr;
-    assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
-    r.collisions_per_particle = 20.0;
-    assert_int_equal(jam_run(sys, &r, nullptr), JAM_OK);
-    const double *view = nullptr;
-    size_t len = 0;
-    jam_view(sys, JAM_VIEW_VELOCITIES, &view, &len);
+    constexpr size_t len = 64;
+    jam_system *sys = random_spheres(2, 32, 0.5, 1);
+    run(sys, 20.0);
+    const double *view = view_of(sys, JAM_VIEW_VELOCITIES);
     std::vector<double> v(view, view + len);
     for (double &c : v) c = std::ldexp(c, -29 * k);
     assert_int_equal(jam_set_velocities(sys, v.data(), len), JAM_OK);
-    assert_int_equal(jam_run(sys, &r, nullptr), JAM_OK);
-    jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
+    run(sys, 20.0);
+    view = view_of(sys, JAM_VIEW_POSITIONS);
     ends[k].assign(view, view + len);
     v.assign(len, 0.0);
     v[14] = 1e-300;
@@ -112,7 +91,8 @@ CASE(energies_in_any_unit) {
     o.alpha = 2.5, o.energy_scale = 1024.0 * unit, o.temperature = unit, o.sweeps = 50;
     assert_int_equal(jam_monte_carlo(sys, &o, &report), JAM_OK);
     energy[k] = report.energy / unit;
-    ends[k] = view_of(sys, JAM_VIEW_POSITIONS);
+    const double *const x = view_of(sys, JAM_VIEW_POSITIONS);
+    ends[k].assign(x, x + 80);
     jam_destroy(sys);
   }
   assert_true(energy[0] == energy[1] && energy[2] == energy[1]);

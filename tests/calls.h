@@ -141,22 +141,13 @@ static inline int dimension_of(const jam_system *sys) {
   return sys && jam_get_info(sys, &info) >= 0 ? info.dim : 1;
 }
 
-/* Puts a cell that needs reduction, or a small strain, into real[0]; its length. */
-static inline size_t cell_of(CALL_INPUT *in, jam_system *sys) {
+/* Puts a matrix with these numbers on its diagonal and at one other place into real[0]; its length. */
+static inline size_t matrix_of(CALL_INPUT *in, const jam_system *sys, double diagonal, int place, double other_number) {
   const int d = dimension_of(sys);
   int k;
   memset(real[0], 0, sizeof *real[0] * 64);
-  for (k = 0; k < d; ++k) real[0][k * (d + 1)] = NUMBER(1.0);
-  if (d > 1) real[0][d] = NUMBER(7.0);
-  (void)in;
-  return (size_t)(d * d);
-}
-static inline size_t strain_of(CALL_INPUT *in, jam_system *sys) {
-  const int d = dimension_of(sys);
-  int k;
-  memset(real[0], 0, sizeof *real[0] * 64);
-  for (k = 0; k < d; ++k) real[0][k * (d + 1)] = NUMBER(0.3);
-  if (d > 1) real[0][1] = NUMBER(0.1);
+  for (k = 0; k < d; ++k) real[0][k * (d + 1)] = NUMBER(diagonal);
+  if (d > 1) real[0][place] = NUMBER(other_number);
   (void)in;
   return (size_t)(d * d);
 }
@@ -177,20 +168,15 @@ static inline size_t wave_of(CALL_INPUT *in, jam_system *sys) {
   return (size_t)d;
 }
 
-static inline jam_status read_back(CALL_INPUT *in, jam_system *sys) {
+/* By jam_read_as where a layout is given. */
+static inline jam_status read_back(CALL_INPUT *in, jam_system *sys, const char *layout) {
   const jam_status status = jam_write(sys, call_file(), JAM_FORMAT_XYZ);
   jam_create_options *o = create_options(in);
   if (status < 0) return status;
   o->n = 0, o->dim = 3, o->overlap = JAM_OVERLAP_ALLOW;
-  return made(jam_read(call_file(), o, NULL, NULL, &other), &other);
-}
-
-static inline jam_status read_as_back(CALL_INPUT *in, jam_system *sys) {
-  const jam_status status = jam_write(sys, call_file(), JAM_FORMAT_XYZ);
-  jam_create_options *o = create_options(in);
-  if (status < 0) return status;
-  o->n = 0, o->dim = 3, o->overlap = JAM_OVERLAP_ALLOW;
-  return made(jam_read_as(call_file(), "", o, NULL, NULL, &other), &other);
+  return made(
+      layout ? jam_read_as(call_file(), layout, o, NULL, NULL, &other) : jam_read(call_file(), o, NULL, NULL, &other),
+      &other);
 }
 
 static inline jam_status checkpoint_back(jam_system *sys) {

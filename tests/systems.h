@@ -7,6 +7,10 @@
 #include "start.h"
 #include "test.h"
 
+/* OWNED jam_system *sys = ...: destroyed at the end of its block. */
+static inline void destroy_at(const void *at) { jam_destroy(*(jam_system *const *)at); }
+#define OWNED __attribute__((cleanup(destroy_at)))
+
 static inline jam_system *created_from(const jam_create_options *o, const double *x, size_t x_len,
                                        const double *diameter, size_t diameter_len) {
   jam_system *sys = NULL;
@@ -14,6 +18,14 @@ static inline jam_system *created_from(const jam_create_options *o, const double
   return sys;
 }
 static inline jam_system *created(const jam_create_options *o) { return created_from(o, NULL, 0, NULL, 0); }
+
+static inline jam_system *created_in_cell(const jam_create_options *o, const double *cell, size_t cell_len,
+                                          const double *x, size_t x_len, const double *diameter, size_t diameter_len) {
+  jam_system *sys = NULL;
+  if (create_in_cell(o, cell, cell_len, x, x_len, diameter, diameter_len, &sys) != JAM_OK)
+    fail_msg("%s", jam_last_error());
+  return sys;
+}
 
 static inline jam_system *copy_of(const jam_system *sys) {
   jam_system *copy = NULL;

@@ -32,7 +32,7 @@ static jam_system *square(void) {
 }
 
 CASE(stopped_calls_say_what_stopped_them) {
-  jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE);
+  OWNED jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE);
   DEFAULTS(run, run);
   run.wall_time = 1e-3, run.collisions_per_particle = 1e9;
   said(jam_run(sys, &run, NULL), JAM_LIMIT, "wall_time");
@@ -45,12 +45,11 @@ CASE(stopped_calls_say_what_stopped_them) {
   DEFAULTS(monte_carlo, mc);
   mc.sweeps = 1000000;
   said(jam_monte_carlo(sys, &mc, NULL), JAM_CANCELLED, "callback");
-  jam_destroy(sys);
 }
 
 CASE(verdicts_say_why) {
-  jam_system *fluid = start(60, 0.4, JAM_OVERLAP_REFUSE), *lattice = square(),
-             *soft = start(60, 0.2, JAM_OVERLAP_ALLOW);
+  OWNED jam_system *fluid = start(60, 0.4, JAM_OVERLAP_REFUSE), *lattice = square(),
+                   *soft = start(60, 0.2, JAM_OVERLAP_ALLOW);
   size_t m;
   said(jam_rigidity(fluid, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_NOT_JAMMED, "not collectively jammed");
   said(jam_rigidity(lattice, JAM_RIGIDITY_STRICT, NULL), JAM_NOT_JAMMED, "not strictly jammed");
@@ -61,15 +60,11 @@ CASE(verdicts_say_why) {
   logged[0] = 0;
   said(jam_stress_states(lattice, NULL, 0, NULL, 0, NULL, &m), JAM_AMBIGUOUS, "states of self-stress");
   said(jam_relax(soft, NULL, NULL), JAM_NOT_JAMMED, "no overlaps are left");
-  jam_destroy(soft);
-  jam_destroy(lattice);
-  jam_destroy(fluid);
 }
 
 /* The report that the handle keeps has the status of its call. */
 CASE(reports_keep_their_status) {
-  jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE), *lattice = square();
-  jam_status status;
+  OWNED jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE), *lattice = square();
   SIZED(jam_crunch_report, r);
   DEFAULTS(crunch, o);
   o.max_lps = 1, o.method = JAM_CRUNCH_SEQUENTIAL_LP;
@@ -79,17 +74,14 @@ CASE(reports_keep_their_status) {
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_get_crunch_report(sys, &r), JAM_OK);
   assert_int_equal(r.status, JAM_OK);
-  status = jam_contacts_from_geometry(lattice, NULL, NULL);
+  jam_status status = jam_contacts_from_geometry(lattice, NULL, NULL);
   assert_true(status > 0);
   assert_int_equal(jam_get_crunch_report(lattice, &r), JAM_OK);
   assert_int_equal(r.status, status);
-  jam_destroy(lattice);
-  jam_destroy(sys);
 }
 
 /* A failing verb logs its text, too. */
 CASE(failures_are_logged) {
-  jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE);
+  OWNED jam_system *sys = start(60, 0.4, JAM_OVERLAP_REFUSE);
   said(jam_relax(sys, NULL, NULL), JAM_E_STATE, "overlap");
-  jam_destroy(sys);
 }

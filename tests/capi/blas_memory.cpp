@@ -10,29 +10,20 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "test.h"
+#include "steps.h"
 
 namespace {
 
 constexpr unsigned long mega = 1ul << 20;
 
-jam_system *start() {
-  DEFAULTS(create, o);
-  o.n = 100, o.packing_fraction = 0.2;
-  jam_system *sys = nullptr;
-  if (jam_create(&o, nullptr, &sys) != JAM_OK) std::abort();
-  return sys;
-}
 jam_status crunch(jam_system *sys, int threads) {
   DEFAULTS(crunch, o);
   o.threads = threads;
   return jam_crunch(sys, &o, nullptr);
 }
 jam_status crunch(int threads) {
-  jam_system *sys = start();
-  const jam_status status = crunch(sys, threads);
-  jam_destroy(sys);
-  return status;
+  OWNED jam_system *sys = random_spheres(3, 100, 0.2, 1);
+  return crunch(sys, threads);
 }
 void leave_address_space(unsigned long bytes) {
   unsigned long pages = 0;
@@ -85,7 +76,7 @@ int enough() {
   return crunch(1) ? crunch(1) : crunch(2);
 }
 int spectrum_with(unsigned long bytes) {
-  jam_system *sys = start();
+  jam_system *sys = random_spheres(3, 100, 0.2, 1);
   DEFAULTS(modes, o);
   o.which = JAM_MODES_ALL;
   size_t rows = 0;

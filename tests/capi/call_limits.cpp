@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "failing_new.hpp"
-#include "systems.h"
+#include "steps.h"
 
 namespace {
 
@@ -17,16 +17,9 @@ jam_create_options options(int64_t n, double fraction) {
   return o;
 }
 
-jam_system *make(int64_t n, double fraction) {
-  const jam_create_options o = options(n, fraction);
-  return created(&o);
-}
-
 std::vector<double> positions(const jam_system *sys) {
-  const double *view = nullptr;
-  size_t len = 0;
-  jam_view(sys, JAM_VIEW_POSITIONS, &view, &len);
-  return {view, view + len};
+  const double *const view = view_of(sys, JAM_VIEW_POSITIONS);
+  return {view, view + info_of(sys).n * info_of(sys).dim};
 }
 
 struct Seen {
@@ -70,10 +63,9 @@ CASE(watching_changes_nothing) {
   const jam_create_options o = options(500, 0.25);
   Seen seen;
   const jam_start start = watched_by(seen);
-  jam_system *plain = make(500, 0.25), *watched = nullptr;
+  OWNED jam_system *plain = random_spheres(3, 500, 0.25, 1), *watched = nullptr;
   assert_int_equal(jam_create(&o, &start, &watched), JAM_OK);
   assert_true(positions(plain) == positions(watched));
-  jam_destroy(plain), jam_destroy(watched);
 }
 
 // Shifts of all pairs of 20000 spheres: 2e8 searches.
@@ -94,21 +86,18 @@ CASE(fractions_out_of_reach) {
     jam_system *sys = nullptr;
     SAYS(jam_create(&o, nullptr, &sys), JAM_E_UNPLACEABLE, "ends near");
   }
-  jam_system *one = make(1, 0.5);  // 1.3 times saturation
-  jam_destroy(one);
+  OWNED jam_system *one = random_spheres(3, 1, 0.5, 1);  // 1.3 times saturation
 }
 
 CASE(memory_limit_of_a_call) {
-  jam_system *sys = make(2000, 0.2);
+  OWNED jam_system *sys = random_spheres(3, 2000, 0.2, 1);
   size_t rows = 0;
   assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_OK);
   assert_true(rows > 0);
   assert_int_equal(jam_set_memory_limit(sys, 1e5), JAM_OK);
   SAYS(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY, "pairs");
-  jam_system *copy = nullptr;
-  assert_int_equal(jam_copy(sys, &copy), JAM_OK);
+  OWNED jam_system *copy = copy_of(sys);
   assert_int_equal(jam_gaps(copy, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY);
-  jam_destroy(copy);
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_E_MEMORY);
   assert_int_equal(jam_set_memory_limit(sys, 0.0), JAM_E_ARGUMENT);
   assert_int_equal(jam_set_memory_limit(sys, NAN), JAM_E_ARGUMENT);
@@ -122,13 +111,12 @@ CASE(memory_limit_of_a_call) {
   sys = nullptr;
   assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
   assert_int_equal(jam_gaps(sys, 1.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY);
-  jam_destroy(sys);
 }
 
 // A crunch whose estimate exceeds the limit twice does not begin; below that each matrix decides before it is
 // factorised. What fits runs.
 CASE(memory_limit_of_factors) {
-  jam_system *sys = make(6000, 0.3);
+  OWNED jam_system *sys = random_spheres(3, 6000, 0.3, 1);
   const std::vector<double> before = positions(sys);
   SIZED(jam_estimate_report, e);
   assert_int_equal(jam_estimate_crunch(sys, nullptr, &e), JAM_OK);
@@ -149,12 +137,11 @@ CASE(memory_limit_of_factors) {
   assert_int_equal(jam_crunch(sys, &o, &r), JAM_LIMIT);
   jam_destroy(sys);
 
-  sys = make(400, 0.3);  // the rigidity test, and modes of its network
+  sys = random_spheres(3, 400, 0.3, 1);  // the rigidity test, and modes of its network
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
   assert_int_equal(jam_set_memory_limit(sys, 1e5), JAM_OK);
   SIZED(jam_moduli_report, moduli);
   SAYS(jam_moduli(sys, nullptr, &moduli), JAM_E_MEMORY, "factorised");
-  jam_destroy(sys);
 }
 
 // One sphere that sees most of the pairs: the mean diameter does not announce them. Found by the soak test: 14 GB under
@@ -164,35 +151,29 @@ CASE(memory_limit_of_one_sphere) {
   const double diameters[] = {0.8, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3};
   DEFAULTS(create, o);
   o.n = 6, o.memory_limit = 1e8;
-  jam_system *sys = nullptr;
-  assert_int_equal(create_from(&o, x, 18, diameters, 6, &sys), JAM_OK);
+  OWNED jam_system *sys = created_from(&o, x, 18, diameters, 6);
   size_t rows = 0;
   largest = 0;
   SAYS(jam_gaps(sys, 100.0, 0, nullptr, 0, nullptr, 0, &rows), JAM_E_MEMORY, "pairs");
   assert_true(largest < 100000000);
-  jam_destroy(sys);
 }
 
 // A search for many pairs inside a crunch: its time ends it, and the packing is kept.
 CASE(crunch_of_many_pairs) {
-  jam_system *sys = make(3000, 0.2);
+  OWNED jam_system *sys = random_spheres(3, 3000, 0.2, 1);
   DEFAULTS(crunch, o);
   o.neighbour_radius = 9.0, o.wall_time = 0.2;
   assert_int_equal(jam_set_memory_limit(sys, INFINITY), JAM_OK);
   assert_int_equal(jam_crunch(sys, &o, nullptr), JAM_LIMIT);
   assert_int_equal(jam_run(sys, nullptr, nullptr), JAM_OK);
-  jam_destroy(sys);
 }
-
-int32_t stop_at_once(const jam_progress *, void *) { return 1; }
 
 // Lists of all pairs of 12000 spheres take a second. The callback, and the limit of time, end them before the first
 // event; the packing is as before.
 CASE(lists_of_verbs_are_left) {
   jam_create_options o = options(12000, 0.1);
   o.dim = 8, o.overlap = JAM_OVERLAP_ALLOW;  // in so few diameters a side, every search takes all pairs
-  jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
+  OWNED jam_system *sys = created(&o);
   const std::vector<double> before = positions(sys);
   for (const bool by_callback : {true, false}) {
     jam_set_progress(sys, by_callback ? stop_at_once : nullptr, nullptr);
@@ -219,11 +200,10 @@ CASE(lists_of_verbs_are_left) {
     assert_int_equal(r.stop_reason, by_callback ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME);
     assert_true(r.events == 0 && r.seconds == 0.0);  // it never began
   }
-  jam_destroy(sys);
 }
 
 CASE(lists_of_verbs_keep_to_the_memory) {
-  jam_system *sys = make(3000, 0.3);
+  OWNED jam_system *sys = random_spheres(3, 3000, 0.3, 1);
   const std::vector<double> before = positions(sys);
   assert_int_equal(jam_set_memory_limit(sys, 1e4), JAM_OK);
   DEFAULTS(run, run);
@@ -237,7 +217,6 @@ CASE(lists_of_verbs_keep_to_the_memory) {
   assert_int_equal(jam_set_memory_limit(sys, 1e9), JAM_OK);
   run.collisions_per_particle = 1.0;
   assert_int_equal(jam_run(sys, &run, nullptr), JAM_OK);
-  jam_destroy(sys);
 }
 
 }  // namespace

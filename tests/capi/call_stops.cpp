@@ -43,7 +43,7 @@ const double tilted[9] = {1, 0, 0, 0.25, 1, 0, 0, 0.25, 1};
 
 // By the callback, and by a cancel of another thread while the call runs. That one is answered: the next verb runs.
 CASE(setters_are_stopped) {
-  jam_system *sys = make(quenched());
+  OWNED jam_system *sys = make(quenched());
   const std::vector<double> x = positions(sys), s = diameters(sys);
   std::vector<double> other = x;
   for (double &v : other) v = 1.0 - v;
@@ -69,7 +69,6 @@ CASE(setters_are_stopped) {
   jam_set_progress(sys, nullptr, nullptr);
   size_t rows = 0;
   assert_int_equal(jam_structure_factor(sys, 7.0 * s[0], JAM_STRUCTURE_COLUMNS, nullptr, 0, &rows), JAM_OK);
-  jam_destroy(sys);
 }
 
 // Each of them by the callback, those with options by the limit of time too.
@@ -109,7 +108,7 @@ CASE(makers_are_stopped) {
 CASE(const_calls_are_stopped) {
   DEFAULTS(create, o);
   o.n = n;
-  jam_system *sys = make(o);
+  OWNED jam_system *sys = make(o);
   std::vector<double> out(n);
   size_t rows = 0;
   int calls = 0;
@@ -144,7 +143,6 @@ CASE(const_calls_are_stopped) {
   run.collisions_per_particle = 0.1;
   assert_int_equal(jam_run(sys, &run, nullptr), JAM_CANCELLED);
   assert_int_equal(jam_run(sys, &run, nullptr), JAM_OK);
-  jam_destroy(sys);
 }
 
 struct Nested {

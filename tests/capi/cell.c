@@ -15,28 +15,25 @@ CASE(crunch_does_not_depend_on_the_basis) {
     double cell[9] = {0.0}, wide[9], sizes[60], distance[2];
     int64_t contacts[2];
     jam_create_options o = options(dim, n);
-    jam_system *sys = NULL;
     o.packing_fraction = dim == 2 ? 0.4 : 0.25;
     for (int r = 0; r < dim; ++r)
       for (int c = 0; c <= r; ++c) cell[r * dim + c] = r == c ? 1.0 + 0.1 * r : 0.3;
     for (int k = 0; k < 60; ++k) sizes[k] = k % 2 ? 1.4 : 1.0;
-    assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, sizes, (size_t)n, &sys), JAM_OK);
+    OWNED jam_system *sys = created_in_cell(&o, cell, (size_t)(dim * dim), NULL, 0, sizes, (size_t)n);
     memcpy(wide, cell, sizeof cell);
     wide[(dim - 1) * dim] += 5.0 * cell[0];
     for (int k = 0; k < 2; ++k) {
       jam_crunch_report r = {.struct_size = sizeof r};
-      jam_system *copy = copy_of(sys);
+      OWNED jam_system *copy = copy_of(sys);
       if (k) assert_int_equal(jam_set_cell(copy, wide, (size_t)(dim * dim), NULL, 0, NULL, 0, NULL), JAM_OK);
       assert_int_equal(jam_crunch(copy, NULL, &r), JAM_OK);
       assert_int_equal(r.jammed, 1);
       assert_int_equal(r.excess_contacts, 0);
       assert_true(r.max_overlap < 1e-13 && r.force_residual < 1e-12);
       distance[k] = r.packing_fraction, contacts[k] = r.contacts;
-      jam_destroy(copy);
     }
     assert_true(fabs(distance[1] - distance[0]) < 1e-12); /* equal to the last digits */
     assert_int_equal(contacts[0], contacts[1]);
-    jam_destroy(sys);
   }
 }
 
@@ -45,14 +42,13 @@ CASE(strain_is_affine) {
   jam_create_options o = options(2, 1);
   const double x[2] = {0.2, 0.4}, sigma = 0.1, strain[4] = {0.5, 0.25, 0.0, 0.25};
   double cell[4];
-  jam_system *sys = created_from(&o, x, 2, &sigma, 1);
+  OWNED jam_system *sys = created_from(&o, x, 2, &sigma, 1);
   assert_int_equal(jam_strain(sys, strain, 4), JAM_OK);
   assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
   assert_true(fabs(cell[0] - 1.5) < 1e-15 && cell[1] == 0.0);
   assert_true(fabs(cell[2] - 0.25) < 1e-15 && fabs(cell[3] - 1.25) < 1e-15);
   const double *at = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(fabs(at[0] - 0.4) < 1e-15 && fabs(at[1] - 0.5) < 1e-15);
-  jam_destroy(sys);
 }
 
 /* In d = 2 and 3: cell_given. */
@@ -89,13 +85,12 @@ CASE(huge_multiples) {
   for (int much = 0; much < 2; ++much) {
     const double m = much ? 1e12 : 1e6, rows[9] = {1, 0, 0, m, 1, 0, 0, m, 1}, x[3] = {0}, sigma = 0.1;
     jam_create_options o = options(3, 1);
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     double cell[9];
     assert_int_equal(create_in_cell(&o, rows, 9, x, 3, &sigma, 1, &sys), much ? JAM_E_ARGUMENT : JAM_OK);
     if (much) break;
     assert_int_equal(jam_get_cell(sys, cell, 9, NULL), JAM_OK);
     for (int k = 0; k < 9; ++k) assert_true(cell[k] == (k % 4 == 0));
-    jam_destroy(sys);
   }
 }
 
@@ -104,7 +99,7 @@ CASE(refused) {
                nan_cell[4] = {1, 0, NAN, 1}, zero[4] = {0}, tall[4] = {1.0, 0.0, 0.0, 2.0}, sigma = 0.9,
                x[4] = {0.0, 0.0, 0.5, 1.0};
   jam_create_options o = options(2, 2);
-  jam_system *sys = NULL;
+  OWNED jam_system *sys = NULL;
   size_t rows = 0;
   assert_int_equal(create_in_cell(&o, left, 4, x, 4, &sigma, 1, &sys), JAM_E_ARGUMENT);
   o.box = 2.0; /* beside vectors: one of the two would be without effect */
@@ -133,7 +128,6 @@ CASE(refused) {
   assert_int_equal(create_in_cell(&o, tall, 4, NULL, 0, NULL, 0, &sys), JAM_OK);
   assert_int_equal(jam_monte_carlo(sys, NULL, NULL), JAM_E_UNSUPPORTED);
   assert_true(jam_run(sys, NULL, NULL) >= 0);
-  jam_destroy(sys);
 }
 
 /* Mari-Kurchan shifts are fractions of the cell vectors. A strain that would give the cell other vectors is refused; a
@@ -144,7 +138,7 @@ CASE(shifts_are_kept) {
   SIZED(jam_crunch_report, r);
   DEFAULTS(create, o);
   o.dim = 2, o.n = 32, o.seed = 1, o.model = JAM_MODEL_MK, o.packing_fraction = 1e-3;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = created(&o);
   assert_int_equal(jam_strain(sys, large, 4), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
   assert_true(cell[2] == 0.0);
@@ -160,5 +154,4 @@ CASE(shifts_are_kept) {
   assert_int_equal(jam_crunch(sys, &c, &r), JAM_OK);
   assert_true(r.jammed && r.strictly_jammed == JAM_VERDICT_YES && r.max_overlap < 1e-12);
   assert_true(r.contacts == 3 * (r.stable - 1) + 6); /* isostatic with six components of stress */
-  jam_destroy(sys);
 }

@@ -37,7 +37,7 @@ static void expect_same_bits(jam_system *a, jam_system *b) {
 
 static void expect_read_back(jam_system *sys, int walls) {
   static const char *const path[] = {"cell_given.xyz", "cell_given.data"};
-  jam_system *other = NULL;
+  OWNED jam_system *other = NULL;
   for (int k = 0; k < 2; ++k) {
     assert_int_equal(jam_write(sys, path[k], JAM_FORMAT_AUTO), JAM_OK);
     assert_int_equal(jam_read(path[k], NULL, NULL, NULL, &other), JAM_OK);
@@ -52,12 +52,11 @@ static void expect_read_back(jam_system *sys, int walls) {
   }
   other = from_checkpoint(sys);
   expect_same_bits(sys, other);
-  jam_destroy(other);
 }
 
 /* Growth, dynamics and Monte Carlo leave the cell, and copies and strains act along the axis that is named. */
 static void work_in(jam_system *sys, const double *cell, int dim, int axis, int walls) {
-  jam_system *copies = NULL;
+  OWNED jam_system *copies = NULL;
   int32_t count[3] = {1, 1, 1};
   double tiled[9], strain[9] = {0.0};
   const size_t len = (size_t)(dim * dim);
@@ -77,7 +76,6 @@ static void work_in(jam_system *sys, const double *cell, int dim, int axis, int 
     for (int k = 0; k < dim; ++k) tiled[q * dim + k] = count[q] * cell[q * dim + k];
   expect_cell(copies, tiled, dim);
   expect_read_back(copies, 0);
-  jam_destroy(copies);
   strain[axis * dim + axis] = 0.1; /* stretches component `axis` of every vector */
   memcpy(tiled, cell, len * sizeof *cell);
   for (int q = 0; q < dim; ++q) tiled[q * dim + axis] += 0.1 * cell[q * dim + axis];
@@ -95,7 +93,7 @@ CASE(cells_stay) {
           for (int wall = -1; wall < (l == 0 ? dim : 0); ++wall) {
             double cell[9];
             jam_create_options o = options(dim, 0.1);
-            jam_system *sys = NULL, *given = NULL;
+            OWNED jam_system *sys = NULL, *given = NULL;
             const double *x, *s;
             size_t len, n;
             if (wall >= 0) o.walls = 1 << wall;
@@ -109,7 +107,6 @@ CASE(cells_stay) {
             assert_int_equal(create_in_cell(&o, cell, (size_t)(dim * dim), x, len, s, n, &given), JAM_OK);
             assert_string_equal(jam_notes(given), "");
             expect_same_bits(sys, given);
-            jam_destroy(given);
             if (wall < 0) {
               int64_t transform[9];
               double rotation[9];
@@ -121,7 +118,6 @@ CASE(cells_stay) {
                 assert_true(transform[k] == (k % (dim + 1) == 0) && rotation[k] == (k % (dim + 1) == 0));
             }
             work_in(sys, cell, dim, axis, wall >= 0);
-            jam_destroy(sys);
           }
 }
 
@@ -166,9 +162,8 @@ CASE(extreme_vectors_are_replaced) {
     double cell[4], rotation[4];
     int64_t t[4];
     jam_create_options o = options(2, 0.0);
-    jam_system *sys = NULL;
     o.n = 1;
-    assert_int_equal(create_in_cell(&o, given, 4, x, 2, &sigma, 1, &sys), JAM_OK);
+    OWNED jam_system *sys = created_in_cell(&o, given, 4, x, 2, &sigma, 1);
     assert_int_equal(strstr(jam_notes(sys), "replaced by shorter ones of the same lattice") == NULL, cases[k].same);
     assert_int_equal(strstr(jam_notes(sys), "rotated with the cell") != NULL, cases[k].rotated);
     assert_int_equal(jam_set_cell(sys, given, 4, t, 4, rotation, 4, NULL), JAM_OK);
@@ -183,7 +178,6 @@ CASE(extreme_vectors_are_replaced) {
         assert_true(fabs(sum - cell[2 * r + c]) < 1e-12);
       }
     expect_read_back(sys, 0);
-    jam_destroy(sys);
   }
 }
 
@@ -194,7 +188,7 @@ CASE(shear_without_end) {
   jam_create_options o = options(2, 0.02);
   int replaced = 0;
   o.overlap = JAM_OVERLAP_ALLOW;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = created(&o);
   for (int k = 1; k <= 60; ++k) {
     assert_int_equal(jam_strain(sys, shear, 4), JAM_OK);
     assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
@@ -206,5 +200,4 @@ CASE(shear_without_end) {
   assert_null(strstr(jam_notes(sys), "rotated"));
   assert_int_equal(jam_strain(sys, lower, 4), JAM_OK);
   assert_non_null(strstr(jam_notes(sys), "the spheres were rotated with the cell"));
-  jam_destroy(sys);
 }

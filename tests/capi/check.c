@@ -33,7 +33,7 @@ static jam_system *cubic(int32_t dim, int side, int32_t overlap, double sigma) {
 /* Saddles in all dimensions, and the same spheres apart. */
 CASE(cubic_lattices) {
   for (int32_t dim = 2; dim <= JAM_MAX_DIM; ++dim) {
-    jam_system *sys = cubic(dim, dim < 5 ? 3 : 2, JAM_OVERLAP_REFUSE, 1.0);
+    OWNED jam_system *sys = cubic(dim, dim < 5 ? 3 : 2, JAM_OVERLAP_REFUSE, 1.0);
     jam_check_report r = check(sys, 1, JAM_NOT_JAMMED);
     assert_true(r.jammed == JAM_VERDICT_NO && r.strictly_jammed == JAM_VERDICT_NO && r.stationary == JAM_VERDICT_YES);
     assert_true(r.reason == JAM_CHECK_FLEX && r.flexes > 0 && r.dim == dim && r.rattlers == 0);
@@ -43,7 +43,6 @@ CASE(cubic_lattices) {
     sys = cubic(dim, 2, JAM_OVERLAP_REFUSE, 0.4);
     r = check(sys, 1, JAM_NOT_JAMMED);
     assert_true(r.reason == JAM_CHECK_APART && r.contacts == 0 && r.excess_contacts == 0 && r.rattlers == r.n);
-    jam_destroy(sys);
   }
 }
 
@@ -51,7 +50,7 @@ CASE(cubic_lattices) {
 CASE(leaves_the_handle_alone) {
   jam_crunch_report before = {.struct_size = sizeof before}, after = {.struct_size = sizeof after};
   size_t m = 0, rows = 0;
-  jam_system *sys = random_spheres(3, 64, 0.0, 1), *kept;
+  OWNED jam_system *sys = random_spheres(3, 64, 0.0, 1), *kept = NULL;
   check(sys, 1, JAM_NOT_JAMMED);
   assert_int_equal(jam_contacts(sys, NULL, 0, &m), JAM_E_STATE);
   assert_int_equal(jam_crunch(sys, NULL, &before), JAM_OK);
@@ -65,26 +64,23 @@ CASE(leaves_the_handle_alone) {
   assert_memory_equal(&before, &after, sizeof before);
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, NULL, 0, &rows), JAM_OK);
   assert_true(rows > 0);
-  jam_destroy(kept);
-  jam_destroy(sys);
 }
 
 /* Spheres that overlap by a thousandth: their gaps are known no better. */
 CASE(overlaps) {
-  jam_system *sys = cubic(3, 3, JAM_OVERLAP_ALLOW, 1.001);
+  OWNED jam_system *sys = cubic(3, 3, JAM_OVERLAP_ALLOW, 1.001);
   const jam_check_report r = check(sys, 0, JAM_AMBIGUOUS);
   assert_true(r.jammed == JAM_VERDICT_UNDECIDED && fabs(r.diameter_factor * 1.001 - 1.0) < 1e-12);
   assert_true(r.resolution > 9e-4 && r.nearest_gap < 0.0);
   jam_destroy(sys);
   sys = cubic(3, 3, JAM_OVERLAP_ALLOW, 1.9);
   assert_int_equal(jam_check_packing(sys, NULL, NULL), JAM_AMBIGUOUS);
-  jam_destroy(sys);
 }
 
 /* A crunch of the copy that does not end in time leaves the verdict that was there. */
 CASE(crunch_out_of_time) {
   jam_check_report r = {.struct_size = sizeof r}, whole = r;
-  jam_system *sys = random_spheres(3, 64, 0.0, 1);
+  OWNED jam_system *sys = random_spheres(3, 64, 0.0, 1);
   const double *const x = view_of(sys, JAM_VIEW_POSITIONS);
   double few[3 * 64];
   DEFAULTS(create, start);
@@ -92,7 +88,7 @@ CASE(crunch_out_of_time) {
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   for (size_t k = 0; k < 3 * 64; ++k) few[k] = floor(x[k] * 1e6 + 0.5) * 1e-6;
-  jam_system *rounded = created_from(&start, few, 3 * 64, view_of(sys, JAM_VIEW_DIAMETERS), 1);
+  OWNED jam_system *rounded = created_from(&start, few, 3 * 64, view_of(sys, JAM_VIEW_DIAMETERS), 1);
   DEFAULTS(check, o);
   o.crunch = 0;
   assert_int_equal(jam_check_packing(rounded, &o, &whole), JAM_AMBIGUOUS);
@@ -100,12 +96,10 @@ CASE(crunch_out_of_time) {
   assert_int_equal(jam_check_packing(rounded, &o, &r), JAM_AMBIGUOUS);
   assert_memory_equal(&r, &whole, sizeof r);
   assert_true(r.n == 64 && r.reason == JAM_CHECK_DIGITS && r.crunch_jammed == JAM_VERDICT_UNTESTED);
-  jam_destroy(rounded);
-  jam_destroy(sys);
 }
 
 CASE(what_was_not_tested_is_told) {
-  jam_system *sys = cubic(2, 4, JAM_OVERLAP_REFUSE, 1.0);
+  OWNED jam_system *sys = cubic(2, 4, JAM_OVERLAP_REFUSE, 1.0);
   jam_check_report r = {.struct_size = 2};
   assert_int_equal(jam_check_packing(sys, NULL, NULL), JAM_NOT_JAMMED);
   assert_string_equal(jam_check_text(NULL), "");
@@ -118,5 +112,4 @@ CASE(what_was_not_tested_is_told) {
   jam_rigidity_report rigid = {.struct_size = sizeof rigid, .jammed = 77};
   assert_int_equal(jam_rigidity(sys, JAM_RIGIDITY_STRICT, &rigid), JAM_CANCELLED);
   assert_true(rigid.jammed == JAM_VERDICT_UNTESTED && rigid.stationary == JAM_VERDICT_UNTESTED);
-  jam_destroy(sys);
 }

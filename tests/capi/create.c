@@ -44,20 +44,19 @@ CASE(shorter_structs_keep_defaults) {
   jam_create_options o = options();
   o.n = 50, o.seed = 9, o.box = -1.0; /* box lies beyond the size told: it must not be read */
   o.struct_size = offsetof(jam_create_options, box);
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = created(&o);
   const jam_info info = info_of(sys);
   assert_true(info.box == 1.0 && info.seed == 9 && info.n == 50 && info.monodisperse == 1);
   assert_true(fabs(info.packing_fraction - 0.2) < 1e-14);
-  jam_destroy(sys);
 }
 
 CASE(too_dense_starts_are_refused) {
   jam_create_options o = options();
   double mixture[500];
-  int k;
   o.n = 500, o.packing_fraction = 0.55; /* saturation of random sequential addition is 0.384 in d = 3 */
   refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "ends near 0.384");
-  for (k = 0; k < 500; ++k) mixture[k] = k ? 1.0 : 1.001; /* unequal spheres can pack more densely: they are tried */
+  for (int k = 0; k < 500; ++k)
+    mixture[k] = k ? 1.0 : 1.001; /* unequal spheres can pack more densely: they are tried */
   refused(&o, NULL, 0, mixture, 500, JAM_E_UNPLACEABLE, "reached packing fraction 0.3");
   o.n = 1, o.packing_fraction = 0.9; /* one sphere wider than the box */
   refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "shortest period");
@@ -69,26 +68,22 @@ CASE(too_dense_starts_are_refused) {
 CASE(random_starts_reach_saturation) {
   static const double below[] = {0.54, 0.375}, saturation[] = {0.5471, 0.3841};
   double mixture[2000];
-  int dim, k;
-  for (k = 0; k < 2000; ++k) mixture[k] = k < 200 ? 1.4 : 1.0 + 1e-4 * k;
-  for (dim = 2; dim <= 3; ++dim) {
+  for (int k = 0; k < 2000; ++k) mixture[k] = k < 200 ? 1.4 : 1.0 + 1e-4 * k;
+  for (int dim = 2; dim <= 3; ++dim) {
     jam_create_options o = options();
-    double reached;
-    const char *text;
     o.dim = dim, o.n = 2000, o.packing_fraction = below[dim - 2];
-    jam_system *sys = created(&o);
+    OWNED jam_system *sys = created(&o);
     jam_destroy(sys);
     assert_int_equal(create_from(&o, NULL, 0, mixture, 2000, &sys), JAM_OK);
     jam_destroy(sys);
     o.walls = 1;
     o.packing_fraction *= 0.98; /* walls take room */
     assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-    jam_destroy(sys);
     o.walls = 0, o.packing_fraction = 1.02 * saturation[dim - 2];
     refused(&o, NULL, 0, NULL, 0, JAM_E_UNPLACEABLE, "no room is left");
-    text = strstr(jam_last_error(), "fraction ");
+    const char *text = strstr(jam_last_error(), "fraction ");
     assert_non_null(text);
-    reached = strtod(text + 9, NULL);
+    double reached = strtod(text + 9, NULL);
     assert_true(fabs(reached - saturation[dim - 2]) < 0.005);
   }
 }
@@ -115,10 +110,9 @@ CASE(overlap_is_named_or_shrunk) {
   const double x[6] = {0.02, 0.5, 0.5, 0.94, 0.5, 0.5}, s = 0.1; /* 0.08 apart through the wall */
   refused(&o, x, 6, &s, 1, JAM_E_OVERLAP, "spheres 0 and 1 overlap by 0.2");
   o.overlap = JAM_OVERLAP_SHRINK;
-  jam_system *sys = created_from(&o, x, 6, &s, 1);
+  OWNED jam_system *sys = created_from(&o, x, 6, &s, 1);
   const double *const view = view_of(sys, JAM_VIEW_DIAMETERS);
   assert_true(fabs(view[0] - 0.08) < 1e-15 && view[1] == view[0]);
-  jam_destroy(sys);
 }
 
 CASE(spheres_wider_than_the_box_are_refused_or_shrunk) {
@@ -129,42 +123,36 @@ CASE(spheres_wider_than_the_box_are_refused_or_shrunk) {
   refused(&o, x, 3, &s, 1, JAM_E_OVERLAP,
           "they did not fit the cell: to shrink means to multiply all diameters by 1e-09");
   o.shrink_min = 0.0;
-  jam_system *sys = created_from(&o, x, 3, &s, 1);
+  OWNED jam_system *sys = created_from(&o, x, 3, &s, 1);
   const double *view = view_of(sys, JAM_VIEW_DIAMETERS);
   assert_true(view[0] == 1.0);
-  jam_destroy(sys);
 }
 
 CASE(positions_outside_are_wrapped) {
   const double x[6] = {-0.25, 1.5, -1e-20, 3.0, 2.25, 0.5}, s = 0.1;
   const double expected[6] = {0.75, 0.5, 0.0, 0.0, 0.25, 0.5};
-  size_t k;
-  jam_system *sys = created_from(NULL, x, 6, &s, 1);
+  OWNED jam_system *sys = created_from(NULL, x, 6, &s, 1);
   const double *view = view_of(sys, JAM_VIEW_POSITIONS);
-  for (k = 0; k < 6; ++k) assert_true(view[k] == expected[k]);
-  jam_destroy(sys);
+  for (size_t k = 0; k < 6; ++k) assert_true(view[k] == expected[k]);
 }
 
 CASE(seeds_differ) {
-  jam_system *a = random_spheres(3, 300, 0.0, 42), *b = random_spheres(3, 300, 0.0, 43);
+  OWNED jam_system *a = random_spheres(3, 300, 0.0, 42), *b = random_spheres(3, 300, 0.0, 43);
   assert_memory_not_equal(view_of(a, JAM_VIEW_POSITIONS), view_of(b, JAM_VIEW_POSITIONS), 900 * sizeof(double));
-  jam_destroy(a), jam_destroy(b);
 }
 
 CASE(setters_and_copies) {
   jam_create_options o = options();
-  jam_system *sys, *copy;
-  const double *x, *again;
+  OWNED jam_system *sys = NULL, *copy = NULL;
   double moved[12];
-  size_t k;
   o.n = 4, o.packing_fraction = 0.05;
   assert_int_equal(jam_create(&o, NULL, &sys), JAM_OK);
-  x = view_of(sys, JAM_VIEW_POSITIONS);
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  for (k = 0; k < 12; ++k) moved[k] = (double)(k / 3) * 0.25 + 1.0;
+  for (size_t k = 0; k < 12; ++k) moved[k] = (double)(k / 3) * 0.25 + 1.0;
   assert_int_equal(jam_set_positions(sys, moved, 11), JAM_E_ARGUMENT);
   assert_int_equal(jam_set_positions(sys, moved, 12), JAM_OK);
-  again = view_of(sys, JAM_VIEW_POSITIONS);
+  const double *again = view_of(sys, JAM_VIEW_POSITIONS);
   assert_ptr_equal(again, x);
   assert_true(x[3] == 0.25);
   moved[3] = moved[0], moved[4] = moved[1], moved[5] = moved[2];
@@ -175,8 +163,6 @@ CASE(setters_and_copies) {
   assert_int_equal(jam_scale_diameters(sys, 0.5), JAM_OK);
   again = view_of(copy, JAM_VIEW_POSITIONS);
   assert_true(again[0] != x[0]);
-  jam_destroy(sys);
-  jam_destroy(copy);
   jam_destroy(NULL);
 }
 
@@ -190,27 +176,23 @@ CASE(statuses_and_builds_have_words) {
 
 /* Random starts in every dimension have no overlap, checked pair by pair with nearest images. */
 CASE(random_starts_have_no_overlaps) {
-  int d;
-  for (d = 2; d <= JAM_MAX_DIM; ++d) {
+  for (int d = 2; d <= JAM_MAX_DIM; ++d) {
     jam_create_options o = options();
     const double *x, *s;
     double diameters[60];
-    size_t i, j;
-    int c;
-    for (i = 0; i < 60; ++i) diameters[i] = 1.0 + (double)(i % 7);
+    for (size_t i = 0; i < 60; ++i) diameters[i] = 1.0 + (double)(i % 7);
     o.n = 60, o.dim = d, o.packing_fraction = pow(2.0, 2 - d) * 0.3, o.box = 3.0;
-    jam_system *sys = created_from(&o, NULL, 0, diameters, 60);
+    OWNED jam_system *sys = created_from(&o, NULL, 0, diameters, 60);
     x = view_of(sys, JAM_VIEW_POSITIONS), s = view_of(sys, JAM_VIEW_DIAMETERS);
-    for (i = 0; i < 60; ++i)
-      for (j = 0; j < i; ++j) {
+    for (size_t i = 0; i < 60; ++i)
+      for (size_t j = 0; j < i; ++j) {
         double r2 = 0.0;
-        for (c = 0; c < d; ++c) {
+        for (int c = 0; c < d; ++c) {
           double dx = x[i * d + c] - x[j * d + c];
           dx -= 3.0 * nearbyint(dx / 3.0);
           r2 += dx * dx;
         }
         assert_true(sqrt(r2) >= 0.5 * (s[i] + s[j]));
       }
-    jam_destroy(sys);
   }
 }

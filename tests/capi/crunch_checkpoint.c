@@ -46,35 +46,30 @@ static jam_crunch_report in_steps(jam_system *sys, int32_t steps, jam_status exp
 /* Of the checkpoint that the first step behind this part of the call wrote: what it holds, and where a crunch from it
  * ends. */
 static double go_on_from(double part, double cell, double *phi) {
-  jam_system *sys = start(cell), *again = NULL;
+  OWNED jam_system *sys = start(cell), *again = NULL;
   const double before = info_of(sys).packing_fraction;
   keeper k = {sys, part, 0, 0, 0, 0.0};
-  jam_crunch_report whole, rest;
-  jam_info info;
   assert_int_equal(jam_set_progress(sys, keep, &k), JAM_OK);
-  whole = in_steps(sys, 1, JAM_OK);
+  jam_crunch_report whole = in_steps(sys, 1, JAM_OK);
   assert_true(k.kept > 0 && k.failed == 0);
   if (jam_read_checkpoint(path, NULL, NULL, &again) < 0)
     fail_msg("checkpoint at %g: %s", part, jam_last_error()); /* no overlap */
-  info = info_of(again);
+  jam_info info = info_of(again);
   assert_int_equal(info.paused, JAM_PHASE_CRUNCH);
   assert_true(info.packing_fraction >= before && info.packing_fraction < whole.packing_fraction * (1.0 + 1e-12));
   assert_true(info.packing_fraction > k.phi * (1.0 - 1e-12)); /* the step that was told, not the one before */
-  rest = in_steps(again, 0, JAM_OK);
+  jam_crunch_report rest = in_steps(again, 0, JAM_OK);
   assert_true(rest.jammed && rest.packing_fraction > info.packing_fraction * (1.0 - 1e-12));
   assert_int_equal(info_of(again).paused, 0);
-  jam_destroy(again);
-  jam_destroy(sys);
   *phi = rest.packing_fraction;
   return whole.packing_fraction;
 }
 
 CASE(each_one_goes_on) {
-  int k;
-  double phi = 0.0, whole;
-  for (k = 0; k < 6; ++k) go_on_from(0.15 * k, 0.0, &phi);
+  double phi = 0.0;
+  for (int k = 0; k < 6; ++k) go_on_from(0.15 * k, 0.0, &phi);
   go_on_from(0.2, 0.3, &phi); /* a sheared cell */
-  whole = go_on_from(1.0, 0.0, &phi);
+  double whole = go_on_from(1.0, 0.0, &phi);
   assert_true(phi > whole * (1.0 - 1e-10) && phi < whole * (1.0 + 1e-10)); /* at its end the same packing */
   remove(path);
 }
@@ -86,7 +81,7 @@ static int32_t stop(const jam_progress *p, void *user) {
 
 /* The handle itself, its copies and its checkpoints know of a crunch that was stopped, until spheres change. */
 CASE(a_stopped_crunch_is_known) {
-  jam_system *sys = start(0.0), *copy, *again;
+  OWNED jam_system *sys = start(0.0), *copy = NULL, *again = NULL;
   assert_int_equal(jam_set_progress(sys, stop, NULL), JAM_OK);
   in_steps(sys, 1, JAM_CANCELLED);
   assert_int_equal(info_of(sys).paused, JAM_PHASE_CRUNCH);
@@ -95,9 +90,6 @@ CASE(a_stopped_crunch_is_known) {
   assert_int_equal(info_of(again).paused, JAM_PHASE_CRUNCH);
   assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
   assert_int_equal(info_of(sys).paused, 0);
-  jam_destroy(again);
-  jam_destroy(copy);
-  jam_destroy(sys);
 }
 
 static double history(const jam_system *sys, size_t column, int last) {
@@ -123,13 +115,12 @@ static int32_t stop_on_path(const jam_progress *p, void *user) {
 /* A path that was stopped goes on where it was: no LP comes first, and the duality gap is that of the stop, for which
  * mu stands. An LP would close it, a new path would begin at the first mu. By LPs alone it begins with one. */
 CASE(a_path_goes_on) {
-  jam_system *sys = start(0.0), *again, *by_lps;
+  OWNED jam_system *sys = start(0.0), *again = NULL, *by_lps = NULL;
   lps last = {0, 0};
-  double gap;
   assert_int_equal(jam_set_progress(sys, stop_on_path, &last), JAM_OK);
   in_steps(sys, 1, JAM_CANCELLED);
   assert_true(history(sys, JAM_HISTORY_PHASE, 1) == JAM_STEP_PATH);
-  gap = history(sys, JAM_HISTORY_DUALITY_GAP, 1);
+  double gap = history(sys, JAM_HISTORY_DUALITY_GAP, 1);
   again = from_checkpoint(sys), by_lps = copy_of(again);
   assert_true(in_steps(again, 0, JAM_OK).jammed);
   assert_true(history(again, JAM_HISTORY_PHASE, 0) == JAM_STEP_PATH);
@@ -138,7 +129,4 @@ CASE(a_path_goes_on) {
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   assert_int_equal(jam_crunch(by_lps, &o, NULL), JAM_OK);
   assert_true(history(by_lps, JAM_HISTORY_PHASE, 0) == JAM_STEP_LP);
-  jam_destroy(by_lps);
-  jam_destroy(again);
-  jam_destroy(sys);
 }

@@ -29,11 +29,11 @@ typedef struct measured {
 /* The whole life of a packing in a fresh process: how much its peak grows while it crunches. The longest lists come
  * early. */
 static measured life(int64_t n, double phi, double pressure, int factorisations, int32_t threads) {
-  jam_system *small = random_spheres(3, 200, 0.3, 1), *sys;
+  jam_system *small = random_spheres(3, 200, 0.3, 1);
   measured m;
   assert_int_equal(jam_crunch(small, NULL, NULL), JAM_OK); /* code and buffers of all libraries are in memory now */
   jam_destroy(small);
-  sys = random_spheres(3, n, phi, 1);
+  OWNED jam_system *sys = random_spheres(3, n, phi, 1);
   DEFAULTS(compress, c);
   c.growth_rate = 1e-2, c.pressure = pressure;
   if (pressure > 0.0) jam_compress(sys, &c, NULL);
@@ -44,7 +44,6 @@ static measured life(int64_t n, double phi, double pressure, int factorisations,
   m.taken = peak();
   jam_set_progress(sys, stop_after, &factorisations);
   m.taken = jam_crunch(sys, &o, NULL) >= 0 ? peak() - m.taken : -1.0;
-  jam_destroy(sys);
   return m;
 }
 
@@ -52,9 +51,8 @@ static measured life(int64_t n, double phi, double pressure, int factorisations,
 static void memory(int64_t n, double phi, double pressure, int factorisations, int32_t threads, double share) {
   int ends[2], status = -1;
   measured m = {0.0, 0.0};
-  pid_t child;
   assert_int_equal(pipe(ends), 0);
-  child = fork();
+  pid_t child = fork();
   if (child == 0) {
     m = life(n, phi, pressure, factorisations, threads);
     _exit(write(ends[1], &m, sizeof m) != sizeof m);
@@ -80,8 +78,8 @@ CASE(memory_estimate_is_good_to_a_half) {
 
 /* Twice the spheres: pairs double, flops more than double; more threads need no less memory. */
 CASE(estimates_scale_with_the_number_of_spheres) {
-  jam_system *small = random_spheres(3, 300, 0.3, 1), *large = random_spheres(3, 600, 0.3, 1);
-  jam_estimate_report a, b, two;
+  OWNED jam_system *small = random_spheres(3, 300, 0.3, 1), *large = random_spheres(3, 600, 0.3, 1);
+  jam_estimate_report a, b;
   a = estimated(small, NULL), b = estimated(large, NULL);
   assert_true(b.pairs > 1.8 * (double)a.pairs && b.pairs < 2.2 * (double)a.pairs);
   assert_true(b.flops > 2.0 * a.flops && b.bytes > 1.9 * a.bytes);
@@ -89,11 +87,10 @@ CASE(estimates_scale_with_the_number_of_spheres) {
   assert_true(0.0 < a.seconds_low && a.seconds_low < a.seconds && a.seconds < a.seconds_high);
   DEFAULTS(crunch, o);
   o.threads = 2;
-  two = estimated(large, &o);
+  jam_estimate_report two = estimated(large, &o);
   assert_true(two.bytes >= b.bytes && two.flops == b.flops);
   o.threads = 8;
   assert_true(estimated(large, &o).bytes >= two.bytes);
-  jam_destroy(small), jam_destroy(large);
 }
 
 /* Small spheres roam in holes: the path meets saddles, and makes a list a step. */
@@ -103,11 +100,10 @@ CASE(wide_mixtures_take_more_steps) {
     DEFAULTS(create, o);
     o.n = 256;
     for (int i = 0; i < 256; ++i) sizes[i] = i < 128 ? 1.0 : ratio;
-    jam_system *sys = created_from(&o, NULL, 0, sizes, 256);
+    OWNED jam_system *sys = created_from(&o, NULL, 0, sizes, 256);
     const jam_estimate_report e = estimated(sys, NULL);
     assert_true(e.factorisations > 1.3 * before && e.seconds == e.factorisations * e.step_seconds);
     before = e.factorisations;
-    jam_destroy(sys);
   }
 }
 
@@ -121,7 +117,7 @@ CASE(equal_disks_and_crystals_have_a_wide_range) {
   } cases[] = {{2, 0, 1.0, 100, 1000}, {2, 1, 1.0, 50, 1000}, {2, 0, 1.4, 2, 10}, {3, 0, 1.0, 2, 10}};
   double sizes[256], x[512];
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     DEFAULTS(create, o);
     for (int i = 0; i < 256; ++i) {
       sizes[i] = (i % 2 ? cases[k].ratio : 1.0) / 16;
@@ -132,25 +128,22 @@ CASE(equal_disks_and_crystals_have_a_wide_range) {
                      JAM_OK);
     const jam_estimate_report e = estimated(sys, NULL);
     assert_true(e.seconds_high > cases[k].least * e.seconds && e.seconds_high < cases[k].most * e.seconds);
-    jam_destroy(sys);
   }
 }
 
 /* As many contacts as unknowns make no crystal. */
 CASE(grown_spheres_have_a_narrow_range) {
-  jam_system *sys = random_spheres(3, 100, 0.3, 1);
+  OWNED jam_system *sys = random_spheres(3, 100, 0.3, 1);
   DEFAULTS(compress, c);
   c.growth_rate = 1e-2, c.pressure = 1e5;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
   const jam_estimate_report e = estimated(sys, NULL);
   assert_true(e.seconds_high < 10 * e.seconds && e.seconds_low > 0.1 * e.seconds);
-  jam_destroy(sys);
 }
 
 /* The path couples pairs near contact; an LP couples those too that its step bound lets close. */
 CASE(the_path_factorises_fewer_pairs_than_the_lps) {
-  jam_system *sys = random_spheres(3, 300, 0.3, 1);
-  jam_estimate_report path, lps, wide;
+  OWNED jam_system *sys = random_spheres(3, 300, 0.3, 1);
   DEFAULTS(compress, c);
   c.growth_rate = 0.1, c.pressure = 1e4;
   assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
@@ -158,16 +151,15 @@ CASE(the_path_factorises_fewer_pairs_than_the_lps) {
   o.neighbour_radius = 0.9; /* shorter than a contact */
   assert_true(estimated(sys, &o).pairs > 0);
   o.neighbour_radius = 1.5;
-  path = estimated(sys, &o);
+  jam_estimate_report path = estimated(sys, &o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
-  lps = estimated(sys, &o);
+  jam_estimate_report lps = estimated(sys, &o);
   assert_true((double)path.pairs >
               0.95 * (double)lps.pairs); /* the list of the LPs may be for slightly larger diameters */
   assert_true(path.flops < lps.flops && path.step_seconds < lps.step_seconds);
   o.neighbour_radius = 2.0; /* far pairs are rows, but stay out of the matrix */
-  wide = estimated(sys, &o);
+  jam_estimate_report wide = estimated(sys, &o);
   assert_true((double)wide.pairs > 2.0 * (double)lps.pairs && wide.flops < 1.2 * lps.flops);
-  jam_destroy(sys);
 }
 
 static void keep_estimate(int32_t level, const char *line, void *user) {
@@ -176,7 +168,7 @@ static void keep_estimate(int32_t level, const char *line, void *user) {
 
 /* The first line of a crunch that is logged. */
 CASE(the_estimate_is_logged_first) {
-  jam_system *sys = random_spheres(3, 60, 0.3, 1);
+  OWNED jam_system *sys = random_spheres(3, 60, 0.3, 1);
   char line[400] = "", expected[40];
   jam_estimate_report e = estimated(sys, NULL);
   jam_set_log(sys, keep_estimate, JAM_LOG_INFO, line);
@@ -185,13 +177,11 @@ CASE(the_estimate_is_logged_first) {
            e.bytes < 999.5e3 ? "estimate: %.3g kB, %d pairs," : "estimate: %.3g MB, %d pairs,",
            e.bytes / (e.bytes < 999.5e3 ? 1e3 : 1e6), (int)e.pairs);
   assert_int_equal(strncmp(line, expected, strlen(expected)), 0);
-  jam_destroy(sys);
 }
 
 CASE(bad_calls_are_refused) {
-  jam_system *sys = random_spheres(3, 60, 0.3, 1), *one = random_spheres(3, 1, 0.1, 1);
+  OWNED jam_system *sys = random_spheres(3, 60, 0.3, 1), *one = random_spheres(3, 1, 0.1, 1);
   SIZED(jam_estimate_report, e);
   assert_int_equal(jam_estimate_crunch(sys, NULL, NULL), JAM_E_NULL);
   assert_int_equal(jam_estimate_crunch(one, NULL, &e), JAM_E_TOO_FEW);
-  jam_destroy(sys), jam_destroy(one);
 }

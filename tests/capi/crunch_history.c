@@ -10,8 +10,7 @@ enum { N = 80, MAX_STEPS = 2000 };
 
 static jam_system *start(int dim, int64_t seed) {
   double diameters[N];
-  int k;
-  for (k = 0; k < N; ++k) diameters[k] = k % 2 ? 1.4 : 1.0;
+  for (int k = 0; k < N; ++k) diameters[k] = k % 2 ? 1.4 : 1.0;
   DEFAULTS(create, o);
   o.n = N, o.dim = dim, o.seed = seed, o.packing_fraction = dim == 2 ? 0.4 : 0.25;
   return created_from(&o, NULL, 0, diameters, N);
@@ -39,8 +38,7 @@ typedef struct watch {
 static void look_at_network(watch *w, const double *displacement) {
   int32_t *pair;
   double *vector, *dual, force[3 * N], most = 0.0, total = 0.0, gamma = 0.0, growth;
-  size_t m, k;
-  int c;
+  size_t m;
   assert_int_equal(jam_crunch_step(w->sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &m), JAM_OK);
   if (m == 0) return;
   pair = malloc(2 * m * sizeof *pair);
@@ -49,11 +47,11 @@ static void look_at_network(watch *w, const double *displacement) {
   assert_int_equal(jam_crunch_step(w->sys, NULL, 0, NULL, 0, NULL, 0, dual, m - 1, NULL), JAM_E_BUFFER);
   memset(force, 0, sizeof force);
   growth = pow(w->phi / w->phi0, 1.0 / w->dim); /* of the diameters, up to the step before */
-  for (k = 0; k < m; ++k) {
+  for (size_t k = 0; k < m; ++k) {
     const double sigma = 0.5 * (w->sigma0[pair[2 * k]] + w->sigma0[pair[2 * k + 1]]) * growth;
     double r2 = 0.0;
     assert_true(dual[k] > 0.0);
-    for (c = 0; c < w->dim; ++c) {
+    for (int c = 0; c < w->dim; ++c) {
       force[pair[2 * k] * w->dim + c] += dual[k] * vector[k * w->dim + c];
       force[pair[2 * k + 1] * w->dim + c] -= dual[k] * vector[k * w->dim + c];
       r2 += vector[k * w->dim + c] * vector[k * w->dim + c];
@@ -61,10 +59,11 @@ static void look_at_network(watch *w, const double *displacement) {
     assert_true(r2 > sigma * sigma * (1.0 - 1e-9)); /* no overlap */
     total += dual[k] * sqrt(r2) / (double)m, gamma += dual[k] * sigma * sigma;
   }
-  for (k = 0; k < (size_t)(N * w->dim); ++k) most = fmax(most, fabs(displacement[k]));
-  for (k = 0; k < N; ++k) {
+  for (size_t k = 0; k < (size_t)(N * w->dim); ++k) most = fmax(most, fabs(displacement[k]));
+  for (size_t k = 0; k < N; ++k) {
     double f2 = 0.0, s = 0.0;
-    for (c = 0; c < w->dim; ++c) s = fmax(s, fabs(displacement[k * w->dim + c])), f2 += pow(force[k * w->dim + c], 2);
+    for (int c = 0; c < w->dim; ++c)
+      s = fmax(s, fabs(displacement[k * w->dim + c])), f2 += pow(force[k * w->dim + c], 2);
     w->balance[w->lps] = fmax(w->balance[w->lps], sqrt(f2) / total);
     if (s < 0.99 * most) w->balance_free[w->lps] = fmax(w->balance_free[w->lps], sqrt(f2) / total);
   }
@@ -76,11 +75,10 @@ static void look_at_network(watch *w, const double *displacement) {
 static int32_t each_step(const jam_progress *p, void *user) {
   watch *w = user;
   double displacement[3 * N];
-  size_t k;
   const jam_status status = jam_crunch_step(w->sys, displacement, N * w->dim, NULL, 0, NULL, 0, NULL, 0, NULL);
   if (status == JAM_E_STATE) return 0; /* called amid a step */
   assert_int_equal(status, JAM_OK);
-  for (k = 0; k < (size_t)(N * w->dim); ++k) w->sum[k] += displacement[k];
+  for (size_t k = 0; k < (size_t)(N * w->dim); ++k) w->sum[k] += displacement[k];
   look_at_network(w, displacement);
   w->phi = p->packing_fraction;
   ++w->steps;
@@ -91,26 +89,25 @@ static int32_t each_step(const jam_progress *p, void *user) {
 static double msd_of_stable(const watch *w) {
   int32_t z[N];
   double mean[3] = {0, 0, 0}, sum = 0.0, stable = 0.0;
-  size_t needed, k;
+  size_t needed;
   assert_int_equal(jam_coordination(w->sys, z, N, &needed), JAM_OK);
-  for (k = 0; k < N; ++k) stable += z[k] > 0;
-  for (k = 0; k < (size_t)(N * w->dim); ++k)
+  for (size_t k = 0; k < N; ++k) stable += z[k] > 0;
+  for (size_t k = 0; k < (size_t)(N * w->dim); ++k)
     if (z[k / w->dim] > 0) mean[k % w->dim] += w->sum[k] / stable;
-  for (k = 0; k < (size_t)(N * w->dim); ++k)
+  for (size_t k = 0; k < (size_t)(N * w->dim); ++k)
     if (z[k / w->dim] > 0) sum += pow(w->sum[k] - mean[k % w->dim], 2) / stable;
   return sum;
 }
 
 static void steps_add_up(int dim, int32_t method) {
-  jam_system *sys = start(dim, 5 + dim);
+  OWNED jam_system *sys = start(dim, 5 + dim);
   jam_crunch_report r;
   jam_info info;
   watch w;
   const double *x, *s;
   double x0[3 * N], mean[3] = {0, 0, 0}, most = 0.0, msd = 0.0, balance = 0.0, v[MAX_STEPS], phase[MAX_STEPS],
                     growth = 1.0, sum = 0.0, phi = 0.0;
-  size_t len, rows, k, lp = 0, lps = 0, paths = 0;
-  int c;
+  size_t len, k, lp = 0, lps = 0, paths = 0;
   memset(&w, 0, sizeof w), memset(&r, 0, sizeof r);
   r.struct_size = sizeof r, info.struct_size = sizeof info;
   jam_get_info(sys, &info);
@@ -132,10 +129,10 @@ static void steps_add_up(int dim, int32_t method) {
   }
   for (k = 0; k < N; ++k) {
     double r2 = 0.0;
-    for (c = 0; c < dim; ++c) r2 += pow(w.sum[k * dim + c] - mean[c], 2);
+    for (int c = 0; c < dim; ++c) r2 += pow(w.sum[k * dim + c] - mean[c], 2);
     most = fmax(most, r2), msd += r2 / N;
   }
-  rows = column(sys, JAM_HISTORY_TOTAL_MAX, v);
+  size_t rows = column(sys, JAM_HISTORY_TOTAL_MAX, v);
   assert_int_equal(rows, w.steps);
   assert_true(fabs(v[rows - 1] * info.diameter_mean - sqrt(most)) < 1e-12);
   column(sys, JAM_HISTORY_TOTAL_MSD, v);
@@ -184,13 +181,11 @@ static void steps_add_up(int dim, int32_t method) {
   print_message("d %d method %d: %d steps, %d LPs, worst balance %.1e, worst |sum lambda sigma^2 - 1| %.1e\n", dim,
                 method, w.steps, w.lps, balance, w.worst_gamma);
   assert_true(w.lps > 0 && balance > 0.0 && balance < 1e-3 && w.worst_gamma < 1e-6);
-  jam_destroy(sys);
 }
 
 CASE(history_steps_add_up_to_the_packing) {
-  int dim, method;
-  for (dim = 2; dim <= 3; ++dim)
-    for (method = 0; method < 2; ++method) steps_add_up(dim, method);
+  for (int dim = 2; dim <= 3; ++dim)
+    for (int method = 0; method < 2; ++method) steps_add_up(dim, method);
 }
 
 static int32_t asks_in_vain(const jam_progress *p, void *user) {
@@ -204,16 +199,16 @@ static int32_t asks_in_vain(const jam_progress *p, void *user) {
 /* Errors by name; the details are for the callback of a crunch with steps = 1 alone; what moves the spheres drops the
  * history. */
 CASE(history_errors_are_named) {
-  jam_system *sys = start(2, 1), *copy;
+  OWNED jam_system *sys = start(2, 1), *copy = NULL;
   double v[MAX_STEPS], u[MAX_STEPS];
-  size_t needed, rows;
+  size_t needed;
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_crunch_step(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
   DEFAULTS(crunch, o);
   jam_set_progress(sys, asks_in_vain, &sys);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch_step(sys, NULL, 0, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_E_STATE);
-  rows = column(sys, JAM_HISTORY_PHI, v);
+  size_t rows = column(sys, JAM_HISTORY_PHI, v);
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, v, rows * COLUMNS - 1, &needed), JAM_E_BUFFER);
   assert_int_equal(needed, rows * COLUMNS);
   o.max_lps = -1; /* refused before anything is done: the history stays */
@@ -221,8 +216,6 @@ CASE(history_errors_are_named) {
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   assert_int_equal(column(copy, JAM_HISTORY_PHI, u), rows);
   assert_memory_equal(u, v, rows * sizeof *v);
-  jam_destroy(copy);
   assert_int_equal(jam_scale_diameters(sys, 0.99), JAM_OK);
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, NULL, 0, &needed), JAM_E_STATE);
-  jam_destroy(sys);
 }

@@ -54,10 +54,9 @@ static void count_line(int32_t level, const char *line, void *user) {
 /* How many lines of this word, behind one that begins with `armed`, a crunch of the start logs on this machine. */
 static int lines_of(const char *armed, const char *word, int n, const jam_crunch_options *o) {
   lines found = {armed, word, 0};
-  jam_system *sys = start(n);
+  OWNED jam_system *sys = start(n);
   assert_int_equal(jam_set_log(sys, count_line, JAM_LOG_DEBUG, &found), JAM_OK);
   crunch(sys, o, JAM_OK);
-  jam_destroy(sys);
   return found.count;
 }
 
@@ -66,11 +65,10 @@ static jam_crunch_report crunch_into(const ambush *given, int n, int timed, jam_
   double limit = timed ? 0.1 : INFINITY;
   for (;;) {
     ambush a = *given;
-    jam_crunch_report r;
     *sys = start(n);
     a.sys = *sys, a.sleep = timed ? limit : 0.0, o.wall_time = limit;
     assert_int_equal(jam_set_log(*sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
-    r = crunch(*sys, &o, timed ? JAM_LIMIT : JAM_CANCELLED);
+    jam_crunch_report r = crunch(*sys, &o, timed ? JAM_LIMIT : JAM_CANCELLED);
     assert_int_equal(jam_set_log(*sys, NULL, 0, NULL), JAM_OK);
     assert_int_equal(r.stop_reason, timed ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED);
     assert_true(!r.jammed && a.after <= 1);
@@ -83,18 +81,16 @@ static jam_crunch_report crunch_into(const ambush *given, int n, int timed, jam_
 
 /* A trap in one phase, then the same call again without it. Nothing is lost. */
 static void trap(const char *word, int wait, int timed, const jam_crunch_options *o) {
-  jam_system *sys;
+  OWNED jam_system *sys = NULL;
   ambush a;
-  jam_crunch_report r, done;
   memset(&a, 0, sizeof a);
   a.word = word, a.wait = wait;
-  r = crunch_into(&a, 100, timed, *o, &sys);
+  jam_crunch_report r = crunch_into(&a, 100, timed, *o, &sys);
   assert_true(r.max_overlap < 1e-12 && r.packing_fraction > 0.2);
   assert_int_equal(r.rattlers + r.stable, r.contacts > 0 ? 100 : -1); /* unknown without contacts */
   if (strcmp(word, "path") == 0) assert_int_equal(r.contacts, -1);    /* those of the LP before are not of this state */
-  done = crunch(sys, NULL, JAM_OK);
+  jam_crunch_report done = crunch(sys, NULL, JAM_OK);
   assert_true(done.jammed && done.packing_fraction > r.packing_fraction * (1.0 - 1e-12) && done.max_overlap < 1e-12);
-  jam_destroy(sys);
 }
 
 /* Traps at the first line of each phase that there is, and amid it. The first LP and, from such a start, the path are
@@ -119,22 +115,20 @@ CASE(cancel_in_every_phase) {
 
 /* The time limit comes inside the first LP: the LP is dropped and no sphere has moved. */
 CASE(wall_time_inside_an_lp) {
-  int solver;
   DEFAULTS(crunch, o);
   trap("path", 0, 1, &o);
   o.method = JAM_CRUNCH_SEQUENTIAL_LP;
   trap("ipm", 1, 1, &o);
-  for (solver = 0; solver < 2; ++solver) {
-    jam_system *sys, *plain = start(solver ? 600 : 100); /* 600: one LP by Clp takes far longer than the limit */
+  for (int solver = 0; solver < 2; ++solver) {
+    OWNED jam_system *sys = NULL,
+                     *plain = start(solver ? 600 : 100); /* 600: one LP by Clp takes far longer than the limit */
     ambush a;
-    jam_crunch_report r;
     memset(&a, 0, sizeof a);
     a.word = solver ? "estimate" : "ipm";
     o.lp_solver = solver;
-    r = crunch_into(&a, solver ? 600 : 100, 1, o, &sys);
+    jam_crunch_report r = crunch_into(&a, solver ? 600 : 100, 1, o, &sys);
     assert_true(r.lp_solves == 0 && r.contacts == -1 && r.rattlers == -1 && r.stable == 0);
     same_view(plain, sys, JAM_VIEW_POSITIONS);
-    jam_destroy(plain), jam_destroy(sys);
   }
 }
 
@@ -145,16 +139,15 @@ static int32_t count_calls(const jam_progress *p, void *user) {
 
 /* A polish that is stopped, or has no time left, leaves the answer of the last LP. */
 CASE(a_stopped_polish_leaves_the_lp_answer) {
-  jam_system *plain = start(100);
-  jam_crunch_report b;
+  OWNED jam_system *plain = start(100);
   DEFAULTS(crunch, o);
   const int ways = lines_of(NULL, "polish", 100, &o) > 0 ? 3 : 1;
   o.polish = 0;
-  b = crunch(plain, &o, JAM_OK);
+  jam_crunch_report b = crunch(plain, &o, JAM_OK);
   jam_crunch_options_init(&o, sizeof o);
   /* before it begins, by the progress callback; in its first round; out of time there */
   for (int way = 0; way < ways; ++way) {
-    jam_system *sys;
+    OWNED jam_system *sys = NULL;
     jam_crunch_report a;
     int calls = 0;
     if (way) {
@@ -171,9 +164,7 @@ CASE(a_stopped_polish_leaves_the_lp_answer) {
     assert_true(a.contacts == b.contacts && a.packing_fraction == b.packing_fraction &&
                 a.force_residual == b.force_residual);
     same_view(plain, sys, JAM_VIEW_POSITIONS);
-    jam_destroy(sys);
   }
-  jam_destroy(plain);
 }
 
 static double volume(const jam_system *sys) {
@@ -189,19 +180,17 @@ CASE(stops_in_a_free_cell) {
   o.strain = JAM_STRAIN_FREE;
   for (int k = 0; k < 4; ++k) {
     const int count = lines_of("fixed cell", words[k], 64, &o);
-    jam_system *sys;
+    OWNED jam_system *sys = NULL;
     ambush a;
-    jam_crunch_report r;
     if (k < 2) assert_true(count > 0);
     if (count == 0) continue;
     memset(&a, 0, sizeof a);
     a.armed = "fixed cell", a.word = words[k], a.wait = k == 0 ? count / 2 : 0;
-    r = crunch_into(&a, 64, k == 3, o, &sys);
+    jam_crunch_report r = crunch_into(&a, 64, k == 3, o, &sys);
     assert_true(r.strictly_jammed != JAM_VERDICT_YES);
     assert_true(r.max_overlap < 1e-12 && r.packing_fraction > 0.5 && fabs(volume(sys) - 1.0) < 1e-12);
     r = crunch(sys, &o, JAM_OK);
     assert_true(r.jammed && r.strictly_jammed == JAM_VERDICT_YES && fabs(volume(sys) - 1.0) < 1e-12);
-    jam_destroy(sys);
   }
 }
 
@@ -212,11 +201,10 @@ CASE(a_limit_leaves_no_older_verdict) {
     for (int lps = 2; lps <= 20; lps += 3) {
       for (int method = JAM_CRUNCH_BARRIER_PATH; method <= JAM_CRUNCH_SEQUENTIAL_LP; ++method) {
         SIZED(jam_crunch_report, r);
-        jam_system *sys = random_spheres(2, 2, 0.0, seed);
+        OWNED jam_system *sys = random_spheres(2, 2, 0.0, seed);
         DEFAULTS(crunch, o);
         o.strain = JAM_STRAIN_FREE, o.max_lps = lps, o.method = method;
         assert_true(jam_crunch(sys, &o, &r) >= 0);
-        jam_destroy(sys);
         if (r.stop_reason != JAM_STOP_LP_LIMIT || r.gain < o.gain_tolerance) continue;
         ++limits;
         assert_false(r.stationary || r.jammed);
@@ -233,18 +221,16 @@ CASE(a_limit_leaves_no_older_verdict) {
  * that is refused: unit/crunch_fallbacks.) */
 CASE(a_stop_leaves_no_older_contacts) {
   const double sites[4] = {0.1, 0.2, 0.6, 0.7}, diameters[2] = {0.6, 0.6};
-  jam_crunch_report r;
   ambush a;
   DEFAULTS(create, c);
   c.dim = 2, c.n = 2;
-  jam_system *sys = created_from(&c, sites, 4, diameters, 2);
+  OWNED jam_system *sys = created_from(&c, sites, 4, diameters, 2);
   DEFAULTS(crunch, o);
   o.strain = JAM_STRAIN_FREE;
   memset(&a, 0, sizeof a);
   a.sys = sys, a.armed = "not shown to be jammed", a.word = "ipm";
   assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
-  r = crunch(sys, &o, JAM_CANCELLED);
+  jam_crunch_report r = crunch(sys, &o, JAM_CANCELLED);
   if (!a.sprung) fail_msg("no LP behind the saddle");
   assert_true(r.contacts == -1 && r.rattlers == -1 && !r.stationary && isnan(r.max_contact_gap));
-  jam_destroy(sys);
 }

@@ -1,7 +1,7 @@
 /* Crunches of starts at the rim: few spheres of very unequal sizes, farther apart than the first linear program lets
  * them move; and cells as thin as the limits allow, that are free to become thick. Each ends with a status and a valid
  * state: a finite cell of the same volume and no overlap. */
-#include "systems.h"
+#include "steps.h"
 
 #include <math.h>
 
@@ -12,9 +12,8 @@ static void assert_valid(const jam_system *sys, double before) {
   assert_true(info.packing_fraction >= before * (1.0 - 1e-12) && info.packing_fraction < 1.0);
   assert_int_equal(jam_get_cell(sys, cell, 64, &rows), JAM_OK);
   for (size_t k = 0; k < rows; ++k) assert_true(isfinite(cell[k]));
-  jam_system *copy = copy_of(sys);
+  OWNED jam_system *copy = copy_of(sys);
   assert_int_equal(jam_scale_diameters(copy, 1.0 + 1e-13), JAM_OK); /* looks for overlaps */
-  jam_destroy(copy);
 }
 
 /* One large sphere and five small ones: no pair lies within the bound of the first step. */
@@ -31,21 +30,18 @@ CASE(very_unequal_spheres) {
         DEFAULTS(create, o);
         DEFAULTS(crunch, c);
         o.n = (int64_t)n, o.dim = cases[k].dim, o.seed = seed, o.packing_fraction = 0.02;
-        jam_system *sys = created_from(&o, NULL, 0, diameters, n);
+        OWNED jam_system *sys = created_from(&o, NULL, 0, diameters, n);
         c.wall_time = 20.0;
         const jam_status status = jam_crunch(sys, &c, NULL);
         if (status < 0) fail_msg("d %d ratio %g seed %d: %s", o.dim, cases[k].ratio, (int)seed, jam_last_error());
         assert_valid(sys, 0.02);
-        jam_destroy(sys);
       }
 }
 
 /* A small bound of the steps, by option, makes the lists as short. */
 CASE(short_steps) {
-  DEFAULTS(create, o);
   DEFAULTS(crunch, c);
-  o.n = 6, o.packing_fraction = 0.05;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = random_spheres(3, 6, 0.05, 1);
   c.step_bound = 1e-3, c.max_lps = 30;
   const jam_status status = jam_crunch(sys, &c, NULL);
   if (status < 0) fail_msg("%s", jam_last_error());
@@ -53,7 +49,6 @@ CASE(short_steps) {
   c.neighbour_radius = 1e-3; /* what the user asks for is not changed */
   assert_int_equal(jam_scale_diameters(sys, 0.5), JAM_OK);
   SAYS(jam_crunch(sys, &c, NULL), JAM_E_ARGUMENT, "neighbour radius");
-  jam_destroy(sys);
 }
 
 /* An LP has the pairs whose gap is below neighbour_radius minus the largest diameter, in mean diameters. A smaller
@@ -61,8 +56,7 @@ CASE(short_steps) {
 CASE(radius_and_largest_diameter) {
   double diameters[16] = {8, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, history[JAM_HISTORY_COLUMNS * 4];
   const double mean = 23.0 / 16.0, radius = 8.0 / mean + 0.8;
-  jam_system *sys = NULL;
-  const double *x, *sigma;
+  OWNED jam_system *sys = NULL;
   size_t rows;
   int pairs = 0;
   DEFAULTS(create, o);
@@ -70,8 +64,8 @@ CASE(radius_and_largest_diameter) {
   o.n = 16, o.dim = 2, o.packing_fraction = 0.3;
   const jam_start start = {.struct_size = sizeof start, .diameters = diameters, .diameters_len = 16};
   assert_int_equal(jam_create(&o, &start, &sys), JAM_OK);
-  x = view_of(sys, JAM_VIEW_POSITIONS);
-  sigma = view_of(sys, JAM_VIEW_DIAMETERS);
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
+  const double *sigma = view_of(sys, JAM_VIEW_DIAMETERS);
   const double unit = sigma[1] * mean, reach = radius * unit - sigma[0];
   for (int i = 0; i < 16; ++i)
     for (int j = 0; j < i; ++j)
@@ -87,7 +81,6 @@ CASE(radius_and_largest_diameter) {
   if (jam_crunch(sys, &c, NULL) < 0) fail_msg("%s", jam_last_error());
   assert_int_equal(jam_crunch_history(sys, JAM_HISTORY_COLUMNS, history, JAM_HISTORY_COLUMNS * 4, &rows), JAM_OK);
   assert_int_equal((int)history[JAM_HISTORY_PAIRS], pairs);
-  jam_destroy(sys);
 }
 
 /* Rods of height h, and a flat cell. The volume is 1. */
@@ -101,7 +94,7 @@ CASE(thin_cells) {
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k) {
     const int d = cases[k].dim;
     const double h = cases[k].height, wide = cases[k].flat ? pow(h, -1.0 / (d - 1)) : h;
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     double cell[64] = {0}, ball = pow(acos(-1.0), 0.5 * d) / tgamma(0.5 * d + 1.0);
     DEFAULTS(create, o);
     DEFAULTS(crunch, c);
@@ -123,6 +116,5 @@ CASE(thin_cells) {
     const jam_status status = jam_crunch(sys, &c, NULL);
     if (status < 0) fail_msg("d %d height %g: %d %s", d, h, status, jam_last_error());
     assert_valid(sys, o.packing_fraction);
-    jam_destroy(sys);
   }
 }

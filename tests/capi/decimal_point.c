@@ -2,7 +2,7 @@
  * have their locale. */
 #include <ctype.h>
 #include "comma.h"
-#include "systems.h"
+#include "steps.h"
 
 static void no_comma_in_number(const char *text) {
   const char *c;
@@ -68,9 +68,7 @@ CASE(errors) {
 CASE(texts_and_callbacks) {
   jam_check_report r = {.struct_size = sizeof r};
   comma();
-  DEFAULTS(create, o);
-  o.dim = 2, o.n = 30, o.packing_fraction = 0.4, o.seed = 3;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = random_spheres(2, 30, 0.4, 3);
   assert_int_equal(jam_set_log(sys, on_line, 3, NULL), JAM_OK);
   assert_int_equal(jam_set_progress(sys, on_progress, NULL), JAM_OK);
   DEFAULTS(compress, c);
@@ -84,6 +82,5 @@ CASE(texts_and_callbacks) {
   assert_true(lines > 0 && with_point > 0);
   read_text(jam_proof_text(JAM_THEOREM_EXACT, JAM_CAUSE_NONE, 1.5e-30, 0.0, 0.0));
   host_has_comma();
-  jam_destroy(sys);
   setlocale(LC_ALL, "C");
 }

@@ -1,8 +1,7 @@
 /* Default options make a jammed packing in every dimension. */
-#include <jam/jam.h>
 #include <math.h>
 
-#include "test.h"
+#include "steps.h"
 
 /* A random start, the two stages of growth and the crunch, all by default. Few spheres: in a small cell equal spheres
  * order, so the test asks for a proof of rigidity, and for a density between that of the start and that of the densest
@@ -11,16 +10,10 @@ CASE(defaults_jam_in_every_dimension) {
   static const int64_t n[] = {0, 0, 40, 60, 60, 40, 40, 40, 60};
   static const double densest[] = {0, 0, 0.9069, 0.7405, 0.6169, 0.4653, 0.3730, 0.2953, 0.2537};
   for (int32_t dim = 2; dim <= JAM_MAX_DIM; ++dim) {
-    jam_system *sys = NULL;
-    jam_info info;
-    jam_md_report grown;
-    jam_crunch_report r;
-    memset(&info, 0, sizeof info), memset(&grown, 0, sizeof grown), memset(&r, 0, sizeof r);
-    info.struct_size = sizeof info, grown.struct_size = sizeof grown, r.struct_size = sizeof r;
-    DEFAULTS(create, o);
-    o.dim = dim, o.n = n[dim];
-    if (jam_create(&o, NULL, &sys) != JAM_OK) fail_msg("d = %d: %s", dim, jam_last_error());
-    assert_int_equal(jam_get_info(sys, &info), JAM_OK);
+    SIZED(jam_md_report, grown);
+    SIZED(jam_crunch_report, r);
+    OWNED jam_system *sys = random_spheres(dim, n[dim], 0.0, 1);
+    const jam_info info = info_of(sys);
     assert_true(fabs(info.packing_fraction / (dim <= 3 ? 0.2 : 0.2 * pow(0.5, dim - 3)) - 1.0) < 1e-12);
     if (jam_compress(sys, NULL, &grown) != JAM_OK) fail_msg("d = %d: %s", dim, jam_last_error());
     assert_int_equal(grown.stop_reason, JAM_STOP_PRESSURE);
@@ -31,6 +24,5 @@ CASE(defaults_jam_in_every_dimension) {
     assert_true(r.jammed == 1 && r.excess_contacts >= 0);
     assert_true(r.packing_fraction >= grown.packing_fraction && r.packing_fraction <= densest[dim]);
     assert_true(r.packing_fraction > info.packing_fraction && r.force_residual < 1e-10);
-    jam_destroy(sys);
   }
 }

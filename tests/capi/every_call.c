@@ -7,12 +7,10 @@ static void text_is_there(const char *name, jam_status status) {
 }
 
 CASE(a_null_handle_is_refused) {
-  int k;
-  for (k = 0; k < CALLS; ++k) {
-    jam_status status;
+  for (int k = 0; k < CALLS; ++k) {
     if (every_call[k].start == NONE) continue;
     jam_set_error(NULL);
-    status = every_call[k].call(NULL, NULL);
+    jam_status status = every_call[k].call(NULL, NULL);
     if (status != JAM_E_NULL) fail_msg("%s(NULL, ...) gives %d: %s", every_call[k].name, status, jam_last_error());
   }
 }
@@ -23,16 +21,14 @@ CASE(what_is_missing_is_reported) {
   const double *x;
   double before[24];
   size_t length;
-  int k;
   assert_non_null(fluid);
   assert_int_equal(jam_view(fluid, JAM_VIEW_POSITIONS, &x, &length), JAM_OK);
   assert_int_equal(length, 24);
   memcpy(before, x, sizeof before);
-  for (k = 0; k < CALLS; ++k) {
-    jam_status status;
+  for (int k = 0; k < CALLS; ++k) {
     if (every_call[k].start < NETWORK) continue;
     jam_set_error(NULL);
-    status = every_call[k].call(NULL, fluid);
+    jam_status status = every_call[k].call(NULL, fluid);
     if (status != JAM_E_STATE) fail_msg("%s gives %d: %s", every_call[k].name, status, jam_last_error());
     text_is_there(every_call[k].name, status);
     assert_memory_equal(before, x, sizeof before);
@@ -40,15 +36,30 @@ CASE(what_is_missing_is_reported) {
   jam_destroy(fluid);
 }
 
+/* A network without contacts is one, too: the packing is not jammed, and what asks for a contact is refused. */
+CASE(an_empty_network_is_answered) {
+  jam_system *fluid = system_for(ANY);
+  size_t m;
+  assert_int_equal(jam_contacts_from_geometry(fluid, NULL, NULL), JAM_NOT_JAMMED);
+  for (int k = 0; k < CALLS; ++k) {
+    if (every_call[k].start != NETWORK) continue;
+    const jam_status status = every_call[k].call(NULL, fluid);
+    text_is_there(every_call[k].name, status);
+    if (status < 0 && status != JAM_E_STATE && status != JAM_E_ARGUMENT) /* a history, a stable sphere, a contact */
+      fail_msg("%s gives %d: %s", every_call[k].name, status, jam_last_error());
+  }
+  assert_int_equal(jam_hessian_map(fluid, NULL, 0, &m), JAM_OK);
+  assert_int_equal(m, 0);
+  jam_destroy(fluid);
+}
+
 /* With what it needs no call fails, but for what belongs into a callback. */
 CASE(every_call_does_its_work) {
-  int k;
-  for (k = 0; k < CALLS; ++k) {
+  for (int k = 0; k < CALLS; ++k) {
     jam_system *sys = system_for(every_call[k].start);
-    jam_status status;
     if (every_call[k].start != NONE && !sys) fail_msg("%s: no system: %s", every_call[k].name, jam_last_error());
     jam_set_error(NULL);
-    status = every_call[k].call(NULL, sys);
+    jam_status status = every_call[k].call(NULL, sys);
     if (every_call[k].start == STEP ? status != JAM_E_STATE : status < 0)
       fail_msg("%s gives %d: %s", every_call[k].name, status, jam_last_error());
     text_is_there(every_call[k].name, status);

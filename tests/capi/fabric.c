@@ -1,7 +1,7 @@
 /* The fabric tensor against angles of a lattice, and against a sum over the positions of a packing. */
 #include <math.h>
 
-#include "systems.h"
+#include "steps.h"
 
 /* Rows of touching disks, each shifted by cos(angle): contacts along (1, 0) and (cos, sin), equally many. */
 CASE(sheared_lattice_has_the_tensor_of_its_two_directions) {
@@ -10,7 +10,7 @@ CASE(sheared_lattice_has_the_tensor_of_its_two_directions) {
     const double c = cos(degrees * acos(-1.0) / 180.0), s = sin(degrees * acos(-1.0) / 180.0), sigma = 1.0 - 1e-13;
     const double cell[4] = {L, 0.0, L * c, L * s}, expected[4] = {(1.0 + c * c) / 2, c * s / 2, c * s / 2, s * s / 2};
     double x[2 * L * L], fabric[4];
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     size_t needed;
     for (int k = 0; k < L * L; ++k) x[2 * k] = k % L + k / L * c, x[2 * k + 1] = k / L * s;
     DEFAULTS(create, o);
@@ -22,7 +22,6 @@ CASE(sheared_lattice_has_the_tensor_of_its_two_directions) {
     assert_int_equal(needed, 4);
     for (int k = 0; k < 4; ++k) assert_true(fabs(fabric[k] - expected[k]) < 1e-12);
     assert_int_equal(jam_fabric_tensor(sys, fabric, 3, &needed), JAM_E_BUFFER);
-    jam_destroy(sys);
   }
 }
 
@@ -30,16 +29,14 @@ CASE(sheared_lattice_has_the_tensor_of_its_two_directions) {
  * 3: a mean over the contacts stays within five of its standard deviations. */
 CASE(large_packing_is_isotropic) {
   enum { N = 500, D = 3 };
-  size_t needed, contacts;
+  size_t needed;
   static int32_t pair[2 * 4 * N];
   double fabric[D * D], sum[D * D] = {0.0}, trace = 0.0;
-  DEFAULTS(create, o);
-  o.n = N, o.seed = 7;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = random_spheres(D, N, 0.0, 7);
   if (jam_crunch(sys, NULL, NULL) != JAM_OK) fail_msg("%s", jam_last_error());
   const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_int_equal(jam_contacts(sys, pair, 2 * 4 * N, &needed), JAM_OK);
-  contacts = needed / 2;
+  size_t contacts = needed / 2;
   for (size_t k = 0; k < contacts; ++k) {
     double r[D], r2 = 0.0;
     for (int a = 0; a < D; ++a) {
@@ -60,7 +57,6 @@ CASE(large_packing_is_isotropic) {
       if (a == b) trace += f;
     }
   assert_true(fabs(trace - 1.0) < 1e-13);
-  jam_destroy(sys);
 }
 
 CASE(no_contacts_have_no_tensor) {
@@ -68,9 +64,8 @@ CASE(no_contacts_have_no_tensor) {
   double fabric[4] = {0.0};
   DEFAULTS(create, o);
   o.dim = 2;
-  jam_system *sys = created_from(&o, x, 4, &sigma, 1);
+  OWNED jam_system *sys = created_from(&o, x, 4, &sigma, 1);
   assert_int_equal(jam_contacts_from_geometry(sys, NULL, NULL), JAM_NOT_JAMMED);
   assert_int_equal(jam_fabric_tensor(sys, fabric, 4, NULL), JAM_NOT_JAMMED);
   assert_true(isnan(fabric[0]) && isnan(fabric[3]));
-  jam_destroy(sys);
 }

@@ -128,7 +128,7 @@ struct Work {
 constexpr size_t room = 20000;
 
 void life(Work &w, Seen &seen, int dim, int model) {
-  jam_system *sys = nullptr;
+  OWNED jam_system *sys = nullptr;
   jam_create_options o;
   w.call("jam_create_options_init", [&] { return jam_create_options_init(&o, sizeof o); });
   o.dim = dim, o.n = 64, o.seed = 3, o.model = model, o.packing_fraction = dim == 2 ? 0.3 : 0.2;
@@ -143,7 +143,7 @@ void life(Work &w, Seen &seen, int dim, int model) {
   for (const int threads : {1, 2}) {
     DEFAULTS(crunch, crunch);
     crunch.threads = threads;
-    jam_system *copy = nullptr;
+    OWNED jam_system *copy = nullptr;
     w.call("jam_copy", [&] { return jam_copy(sys, &copy); });
     jam_set_progress(copy, on_progress, &seen);
     jam_set_log(copy, on_log, JAM_LOG_DEBUG, &seen);
@@ -158,7 +158,6 @@ void life(Work &w, Seen &seen, int dim, int model) {
     SIZED(jam_proof_report, proof);
     w.call("jam_prove", [&] { return jam_prove(copy, JAM_RIGIDITY_COLLECTIVE, nullptr, 0, &proof); });
     w.numbers.insert(w.numbers.end(), {proof.radius, proof.least_force, proof.fraction_error});
-    jam_destroy(copy);
   }
   DEFAULTS(isoconf, runs);
   runs.runs = 4, runs.threads = 2, runs.density_ratio = 0.9;
@@ -169,17 +168,15 @@ void life(Work &w, Seen &seen, int dim, int model) {
   if (model == JAM_MODEL_EUCLID) w.call("jam_monte_carlo", [&] { return jam_monte_carlo(sys, &mc, nullptr); });
   w.keep(sys);
   w.call("jam_scale_diameters", [&] { return jam_scale_diameters(sys, std::numeric_limits<double>::quiet_NaN()); });
-  jam_destroy(sys);
 }
 
 void soft_life(Work &w) {
-  jam_system *sys = nullptr;
+  OWNED jam_system *sys = nullptr;
   DEFAULTS(create, o);
   o.n = 64, o.packing_fraction = 0.75, o.overlap = JAM_OVERLAP_ALLOW;
   w.call("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
   w.call("jam_decompress", [&] { return jam_decompress(sys, nullptr, nullptr); });
   w.keep(sys);
-  jam_destroy(sys);
 }
 
 // Two pairs that overlap, one through the boundary of the box: refused in every rounding mode.
@@ -227,14 +224,13 @@ std::vector<double> results_beside(bool thread) {
       std::this_thread::yield();
     }
   });
-  jam_system *sys = random_spheres(3, 100, 0.3, 4);
+  OWNED jam_system *sys = random_spheres(3, 100, 0.3, 4);
   run(sys, 5.0);
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
   stop = true;
   host.join();
   const double *const x = view_of(sys, JAM_VIEW_POSITIONS);
   const std::vector<double> out(x, x + 300);
-  jam_destroy(sys);
   return out;
 }
 
@@ -264,14 +260,12 @@ int set_upward(const jam_progress *, void *) {
 CASE(callbacks_change_the_environment_of_the_host) {
   DEFAULTS(create, o);
   o.n = 64;
-  jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_OK);
+  OWNED jam_system *sys = created(&o);
   jam_set_progress(sys, set_upward, nullptr);
   assert_int_equal(jam_crunch(sys, nullptr, nullptr), JAM_OK);
   const int rounding = fegetround();
   fesetenv(FE_DFL_ENV);
   assert_int_equal(rounding, FE_UPWARD);
-  jam_destroy(sys);
 }
 
 }  // namespace

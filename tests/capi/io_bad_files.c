@@ -74,28 +74,25 @@ CASE(bad_xyz_files_are_refused) {
 CASE(unknown_endings_refused) {
   static const char *const refused[] = {"q.gsd", "q.gsd.gz", "q.XYZ", "q.lammps"};
   static const char *const taken[] = {"q", "q.dat", "q.txt", "q.12", "q.xyz", "q.extxyz", ".hidden"};
-  jam_system *sys = some_packing(3, 12, 1.0, 1.0);
-  size_t k;
+  OWNED jam_system *sys = some_packing(3, 12, 1.0, 1.0);
   int before = count_files();
-  for (k = 0; k < sizeof refused / sizeof *refused; ++k) {
+  for (size_t k = 0; k < sizeof refused / sizeof *refused; ++k) {
     SAYS(jam_write(sys, in_scratch(refused[k]), JAM_FORMAT_AUTO), JAM_E_ARGUMENT,
          ".extxyz (extended XYZ), .data or .lmp");
   }
   assert_int_equal(count_files(), before);
   assert_int_equal(jam_write(sys, in_scratch("q.gsd"), JAM_FORMAT_PLAIN), JAM_OK);
-  for (k = 0; k < sizeof taken / sizeof *taken; ++k)
+  for (size_t k = 0; k < sizeof taken / sizeof *taken; ++k)
     if (jam_write(sys, in_scratch(taken[k]), JAM_FORMAT_AUTO) != JAM_OK) fail_msg("%s: %s", taken[k], jam_last_error());
-  jam_destroy(sys);
 }
 
 /* A file cut at any byte is refused, but for its last newline: without that it may be read, to the same bits. */
 static void every_truncation(const char *name, double ratio) {
   jam_system *sys = some_packing(3, 12, ratio, 1.0), *back = NULL;
-  char *text;
-  size_t size, cut;
+  size_t size;
   assert_int_equal(jam_write(sys, in_scratch(name), JAM_FORMAT_AUTO), JAM_OK);
-  text = get_bytes(in_scratch(name), &size);
-  for (cut = 0; cut < size; ++cut) {
+  char *text = get_bytes(in_scratch(name), &size);
+  for (size_t cut = 0; cut < size; ++cut) {
     put_bytes(in_scratch("cut.dat"), text, cut);
     if (jam_read(in_scratch("cut.dat"), NULL, NULL, NULL, &back) >= 0) {
       if (cut + 1 < size) fail_msg("%s cut to %zu of %zu bytes was read", name, cut, size);

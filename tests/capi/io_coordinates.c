@@ -5,7 +5,7 @@
 #define P "Properties=pos:R:3:radius:R:1 "
 /* Keys that change what coordinates mean are honoured, the others named. */
 CASE(keys_of_xyz) {
-  jam_system *sys = read_text("1\n" BOX P "Origin=\"-0.5 -0.25 1\"\n-0.25 0.25 1.125 .1\n");
+  OWNED jam_system *sys = read_text("1\n" BOX P "Origin=\"-0.5 -0.25 1\"\n-0.25 0.25 1.125 .1\n");
   const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(x[0] == 0.25 && x[1] == 0.5 && x[2] == 0.125);
   assert_string_equal(jam_notes(sys),
@@ -18,7 +18,6 @@ CASE(keys_of_xyz) {
   x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(info_of(sys).dim == 2 && x[0] == 0.25 && x[1] == 0.75);
   assert_non_null(strstr(jam_notes(sys), "the third coordinate, 2 of every disk, was omitted"));
-  jam_destroy(sys);
   expect_refused("1\n" BOX P "Origin=\"0 1\"\n.1 .2 .3 .1\n", JAM_E_FORMAT, "line 2: Origin has 2 numbers");
   expect_refused("1\n" BOX P "Origin=\"0 x 1\"\n.1 .2 .3 .1\n", JAM_E_FORMAT, "line 2: 'x' is not a number");
   expect_refused("1\n" BOX "Properties=pos:R:4:radius:R:1 Origin=\"0 1 0\"\n.1 .2 .3 .4 .1\n", JAM_E_UNSUPPORTED,
@@ -34,8 +33,7 @@ CASE(corners_elsewhere) {
   static const char corner[] = "the corner of the cell is at -1 0 0.5 in the file: positions are measured from there";
   jam_system *sys;
   const double *x;
-  size_t k;
-  for (k = 0; k < 2; ++k) {
+  for (size_t k = 0; k < 2; ++k) {
     sys = read_text(k ? "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS pp pp pp\n-1 1\n0 2\n0.5 2.5\n"
                         "ITEM: ATOMS id x y z radius\n1 0 1 1 0.1\n"
                       : "t\n\n1 atoms\n1 atom types\n-1 1 xlo xhi\n0 2 ylo yhi\n0.5 2.5 zlo zhi\n\nAtoms # sphere\n\n"
@@ -50,7 +48,7 @@ CASE(corners_elsewhere) {
 /* The cell of a handle is lower-triangular: another one is rotated, and the spheres with it. Extreme vectors give way.
  */
 CASE(cells_that_are_changed) {
-  jam_system *sys = read_text("1\nLattice=\"0 2 0 -2 0 0 0 0 2\" " P "\n.1 .2 .3 .1\n");
+  OWNED jam_system *sys = read_text("1\nLattice=\"0 2 0 -2 0 0 0 0 2\" " P "\n.1 .2 .3 .1\n");
   assert_non_null(strstr(jam_notes(sys), "rotated with the cell"));
   assert_null(strstr(jam_notes(sys), "shorter"));
   jam_destroy(sys);
@@ -62,7 +60,6 @@ CASE(cells_that_are_changed) {
       jam_notes(sys),
       "the cell vectors were replaced by shorter ones of the same lattice: the product of their lengths "
       "was over 32 V");
-  jam_destroy(sys);
 }
 
 FIXTURE(make_scratch, remove_scratch)

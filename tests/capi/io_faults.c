@@ -50,42 +50,29 @@ int close(int fd) {
 typedef jam_status (*writer)(const jam_system *sys, const char *path);
 static jam_status write_text(const jam_system *sys, const char *path) { return jam_write(sys, path, 0); }
 
-static void assert_file(const char *path, const char *bytes, size_t size) {
-  size_t now;
-  char *text = get_bytes(path, &now);
-  assert_int_equal(now, size);
-  assert_memory_equal(text, bytes, size);
-  free(text);
-}
-
 static void each_failure(writer save, const char *name) {
-  jam_system *old = some_packing(3, 40, 1.4, 1.0), *sys = some_packing(3, 4000, 1.0, 1.0);
+  OWNED jam_system *old = some_packing(3, 40, 1.4, 1.0), *sys = some_packing(3, 4000, 1.0, 1.0);
   const char *path = in_scratch(name);
-  char *before, *after;
   size_t before_size, after_size;
-  int kind, files;
-  long k;
   assert_int_equal(save(sys, path), JAM_OK);
-  after = get_bytes(path, &after_size);
+  char *after = get_bytes(path, &after_size);
   assert_int_equal(save(old, path), JAM_OK);
-  before = get_bytes(path, &before_size);
-  files = count_files();
-  for (kind = 0; kind < kinds; ++kind)
+  char *before = get_bytes(path, &before_size);
+  int files = count_files();
+  for (int kind = 0; kind < kinds; ++kind)
     for (halves = 0; halves < (kind == calls_write ? 2 : 1); ++halves)
-      for (k = 0;; ++k) {
-        jam_status status;
-        int reached;
+      for (long k = 0;; ++k) {
         until_failure[kind] = k;
-        status = save(sys, path);
-        reached = until_failure[kind] < 0;
+        jam_status status = save(sys, path);
+        int reached = until_failure[kind] < 0;
         until_failure[kind] = -1;
         assert_int_equal(count_files(), files);
         if (status == JAM_OK) {
-          assert_file(path, after, after_size);
+          assert_bytes(path, after, after_size);
           assert_int_equal(save(old, path), JAM_OK);
         } else {
           SAYS(status, JAM_E_IO, strerror(EIO));
-          assert_file(path, before, before_size);
+          assert_bytes(path, before, before_size);
         }
         if (!reached) break;
         /* All but what only makes things tidy or safe against a fall of the machine are told. */
@@ -93,7 +80,6 @@ static void each_failure(writer save, const char *name) {
           assert_int_equal(status, JAM_E_IO);
       }
   free(before), free(after);
-  jam_destroy(old), jam_destroy(sys);
 }
 
 CASE(every_system_call) {
@@ -106,11 +92,11 @@ CASE(kills) {
   const int times = 150;
   jam_system *sys = some_packing(3, 3000, 1.4, 1.0), *back = NULL;
   const char *path = in_scratch("killed.jam");
-  int k, files, orphans = 0;
+  int orphans = 0;
   unsigned random = 12345;
   assert_int_equal(jam_write_checkpoint(sys, path), JAM_OK);
-  files = count_files();
-  for (k = 0; k < times; ++k) {
+  int files = count_files();
+  for (int k = 0; k < times; ++k) {
     const pid_t child = fork();
     assert_true(child >= 0);
     if (child == 0)
@@ -143,16 +129,15 @@ static int count_parts(void) {
 
 /* Not an orphan: another process still writes it, or a user made it, whatever its name ends in. */
 CASE(files_of_others_stay) {
-  jam_system *sys = some_packing(2, 20000, 1.0, 1.0);
+  OWNED jam_system *sys = some_packing(2, 20000, 1.0, 1.0);
   char path[256];
   const char *users[] = {"mine.dat.part-00", "mine.dat.part-1-2", "mine.dat.part-2024-01-15", "mine.dat.part-old",
                          "mine.dat.part-12-345678-0123456789abcdef"};
   const int count = (int)(sizeof users / sizeof *users);
-  int k, parts = count;
-  pid_t child;
+  int parts = count;
   strcpy(path, in_scratch("mine.dat"));
-  for (k = 0; k < count; ++k) put_bytes(in_scratch(users[k]), "x", 1);
-  child = fork();
+  for (int k = 0; k < count; ++k) put_bytes(in_scratch(users[k]), "x", 1);
+  pid_t child = fork();
   if (child == 0) /* a writer at work */
     for (;;) jam_write(sys, path, 0);
   while (parts == count) { /* stopped amid a file */
@@ -168,19 +153,17 @@ CASE(files_of_others_stay) {
   waitpid(child, NULL, 0);
   assert_int_equal(jam_write(sys, path, 0), JAM_OK);
   assert_int_equal(count_parts(), count);
-  for (k = 0; k < count; ++k) assert_int_equal(access(in_scratch(users[k]), F_OK), 0);
-  jam_destroy(sys);
+  for (int k = 0; k < count; ++k) assert_int_equal(access(in_scratch(users[k]), F_OK), 0);
 }
 
 /* The longest names that a file may have, also where the cut falls amid a character of several bytes. */
 CASE(long_names) {
   jam_system *sys = some_packing(2, 10, 1.0, 1.0), *back = NULL;
   char name[256], path[512];
-  size_t length, k;
   int files;
-  for (length = 230; length <= 255; ++length) {
+  for (size_t length = 230; length <= 255; ++length) {
     memset(name, 'a', length);
-    for (k = length % 2; k + 1 < length - 4; k += 2) name[k] = '\xc3', name[k + 1] = '\xa4';
+    for (size_t k = length % 2; k + 1 < length - 4; k += 2) name[k] = '\xc3', name[k + 1] = '\xa4';
     memcpy(name + length - 4, ".dat", 5);
     snprintf(path, sizeof path, "%s/%s", scratch, name);
     files = count_files();

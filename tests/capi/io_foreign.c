@@ -36,7 +36,7 @@ CASE(odd_plain_text) {
 CASE(a_box_that_is_not_named) {
   jam_create_options o = defaults();
   const char *text = "3\n3\n0.2\n0.1 0.2 0.3\n0.6 0.7 1.8\n0.35 0.9 0.15\n";
-  jam_system *sys;
+  OWNED jam_system *sys = NULL;
   expect_refused(text, JAM_E_FORMAT,
                  "line 5: the coordinate 1.8 lies outside the box [0, 1], and the file names no box");
   expect_refused("2\n1\n0.1\n0.1 -0.2\n", JAM_E_FORMAT, "line 4: the coordinate -0.2");
@@ -44,7 +44,6 @@ CASE(a_box_that_is_not_named) {
   sys = read_as(text, NULL, &o);
   assert_string_equal(jam_notes(sys), "");
   assert_true(info_of(sys).box == 2.0);
-  jam_destroy(sys);
   jam_destroy(read_text("2\n2\n0.1\n0.1 1.000000\n-0.0000004 0.5\n")); /* rounding of six digits */
 }
 
@@ -79,7 +78,7 @@ CASE(tables) {
 #define BOX "Lattice=\"1 0 0 0 1 0 0 0 1\" "
 CASE(odd_xyz) {
   jam_create_options o = defaults();
-  jam_system *sys;
+  OWNED jam_system *sys = NULL;
 #define R "1 0.1 0.2 0.3 0.1\n1 0.6 0.7 0.8 0.1\n1 0.35 0.9 0.15 0.1\n"
   same_three(
       read_text("3\nLattice={1 0 0 0 1 0 0 0 1} Properties=type:I:1:pos:R:3:radius:R:1 pbc=\"TRUE True t\"\n" R));
@@ -107,7 +106,6 @@ CASE(odd_xyz) {
   o.dim = 2;
   sys = read_as("1\n" BOX "Properties=pos:R:3:radius:R:1 pbc=\"T T F\"\n.1 .2 7 .1\n", NULL, &o);
   assert_int_equal(info_of(sys).dim, 2);
-  jam_destroy(sys);
 }
 
 CASE(frames) {
@@ -115,9 +113,8 @@ CASE(frames) {
   static const char frame[] = "1\n" BOX "Properties=pos:R:3:radius:R:1\n%g .2 .3 .1\n";
   char text[600], cut[600];
   size_t len, k;
-  jam_system *sys;
   for (len = k = 0; k < 3; ++k) len += (size_t)snprintf(text + len, sizeof text - len, frame, 0.125 * (double)(k + 1));
-  sys = read_text(text);
+  jam_system *sys = read_text(text);
   assert_true(view_of(sys, JAM_VIEW_POSITIONS)[0] == 0.375);
   assert_string_equal(jam_notes(sys), "the last of 3 frames was read; frame=0 to 2 read others");
   jam_destroy(sys);
@@ -176,8 +173,7 @@ CASE(known_by_their_beginning) {
       FILE_OF("3\nt = 0\n1 0.1 0.2 0.3 0.1\n", "line 2: no Properties=, such as Properties=species:S:1"),
       FILE_OF("hello\n", "line 1: 'hello' begins no file that is read"),
   };
-  size_t k;
-  for (k = 0; k < sizeof files / sizeof *files; ++k) {
+  for (size_t k = 0; k < sizeof files / sizeof *files; ++k) {
     jam_system *sys = NULL;
     put_bytes(in_scratch("in.any"), files[k].bytes, files[k].length);
     assert_int_equal(jam_read(in_scratch("in.any"), NULL, NULL, NULL, &sys), JAM_E_FORMAT);
@@ -217,7 +213,7 @@ static void keep_line(int32_t level, const char *line, void *user) {
 /* Shrinking changes all diameters: factor and pair are told, in the notes, in those of a copy and in the log. */
 CASE(shrinking_is_told) {
   jam_create_options o = defaults();
-  jam_system *sys, *copy = NULL;
+  OWNED jam_system *sys = NULL, *copy = NULL;
   const double x[4] = {0.1, 0.5, 0.4, 0.5}, sigma = 0.4;
   double factor = 0.0;
   int i = -1, j = -1;
@@ -234,8 +230,6 @@ CASE(shrinking_is_told) {
   assert_int_equal(jam_set_log(copy, keep_line, JAM_LOG_WARNING, NULL), JAM_OK);
   assert_memory_equal(log_text, "1 all diameters were multiplied by", 34);
   assert_string_equal(jam_notes(NULL), "");
-  jam_destroy(copy);
-  jam_destroy(sys);
 }
 
 /* One duplicate must not take the diameters of all the others. */

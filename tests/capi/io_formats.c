@@ -4,24 +4,22 @@
 #include "start.h"
 
 static void same_after(jam_system *sys, const char *name) {
-  jam_system *back = NULL;
+  OWNED jam_system *back = NULL;
   const char *path = in_scratch(name);
   assert_int_equal(jam_write(sys, path, JAM_FORMAT_AUTO), JAM_OK);
   if (jam_read(path, NULL, NULL, NULL, &back) != JAM_OK) fail_msg("%s", jam_last_error());
   assert_same_bits(sys, back);
-  jam_destroy(back);
 }
 
 CASE(compressed_files_keep_the_bits) {
   jam_system *sys = some_packing(3, 500, 1.4, 7.3), *back = NULL;
   size_t plain, packed;
-  char *bytes, *once;
   same_after(sys, "a.xyz.gz");
   same_after(sys, "a.dat.gz");
   same_after(sys, "a.xyz");
-  bytes = get_bytes(in_scratch("a.xyz"), &plain);
+  char *bytes = get_bytes(in_scratch("a.xyz"), &plain);
   free(bytes);
-  once = get_bytes(in_scratch("a.xyz.gz"), &packed);
+  char *once = get_bytes(in_scratch("a.xyz.gz"), &packed);
   assert_true(packed < plain);
   assert_memory_equal(once, "\x1f\x8b", 2);
   same_after(sys, "b.xyz.gz"); /* the same packing gives the same bytes */
@@ -40,7 +38,7 @@ CASE(compressed_files_keep_the_bits) {
 }
 
 CASE(what_a_format_cannot_hold_is_refused) {
-  jam_system *four = some_packing(4, 60, 1.0, 1.0);
+  OWNED jam_system *four = some_packing(4, 60, 1.0, 1.0);
   assert_int_equal(jam_write(four, in_scratch("a.data"), JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_write(four, in_scratch("a.vtp"), JAM_FORMAT_AUTO), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_write_contacts(four, in_scratch("c.csv"), JAM_CONTACTS_AUTO), JAM_E_STATE);
@@ -51,17 +49,15 @@ CASE(what_a_format_cannot_hold_is_refused) {
   SAYS(jam_write_contacts(four, in_scratch("c.xyz"), JAM_CONTACTS_AUTO), JAM_E_ARGUMENT, ".dump (a LAMMPS dump local)");
   assert_int_equal(jam_write_contacts(four, in_scratch("c.csv"), 4), JAM_E_ARGUMENT);
   assert_int_equal(jam_write(four, in_scratch("c.csv"), 5), JAM_E_ARGUMENT);
-  jam_destroy(four);
 }
 
 CASE(page_holds_its_data_and_nothing_else) {
-  jam_system *sys = some_packing(2, 60, 1.4, 1.0);
+  OWNED jam_system *sys = some_packing(2, 60, 1.4, 1.0);
   double values[120];
-  size_t size, k;
-  char *text;
-  for (k = 0; k < 120; ++k) values[k] = (double)k;
+  size_t size;
+  for (size_t k = 0; k < 120; ++k) values[k] = (double)k;
   assert_int_equal(jam_write_page(sys, in_scratch("a.html"), "</script>\"", 0, "a\nb", values, 120), JAM_OK);
-  text = get_bytes(in_scratch("a.html"), &size);
+  char *text = get_bytes(in_scratch("a.html"), &size);
   assert_non_null(strstr(text, "\"title\": \"\\u003c/script>\\\"\""));
   assert_non_null(strstr(text, "{\"name\": \"b\", \"values\": \""));
   assert_null(strstr(text, "http"));
@@ -81,28 +77,26 @@ CASE(page_holds_its_data_and_nothing_else) {
   values[7] = NAN;
   assert_int_equal(jam_write_page(sys, in_scratch("b.html"), "", 0, "a", values, 60), JAM_E_NONFINITE);
   assert_int_equal(access(in_scratch("b.html"), F_OK), -1);
-  jam_destroy(sys);
 }
 
 static int states_on_the_page(const jam_system *sys) {
   size_t size;
   int count = 0;
-  char *text, *at;
+  char *at;
   assert_int_equal(jam_write_page(sys, in_scratch("s.html"), "", 1, "", NULL, 0), JAM_OK);
-  text = get_bytes(in_scratch("s.html"), &size);
+  char *text = get_bytes(in_scratch("s.html"), &size);
   for (at = text; (at = strstr(at, "\"kind\": ")); ++at) ++count;
   free(text);
   return count;
 }
 
 CASE(page_shows_the_steps_that_the_crunch_kept) {
-  jam_system *sys = some_packing(2, 60, 1.4, 1.0), *plain = NULL, *copy = NULL;
-  int states;
+  OWNED jam_system *sys = some_packing(2, 60, 1.4, 1.0), *plain = NULL, *copy = NULL;
   DEFAULTS(crunch, o);
   assert_int_equal(jam_copy(sys, &plain), JAM_OK);
   o.keep_steps = 3;
   assert_true(jam_crunch(sys, &o, NULL) >= 0);
-  states = states_on_the_page(sys);
+  int states = states_on_the_page(sys);
   assert_in_range(states, 2, 4); /* the start, at most two more, and the end */
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   assert_int_equal(states_on_the_page(copy), states);
@@ -113,9 +107,6 @@ CASE(page_shows_the_steps_that_the_crunch_kept) {
   assert_int_equal(states_on_the_page(sys), 0);
   assert_true(jam_run(copy, NULL, NULL) >= 0);
   assert_int_equal(states_on_the_page(copy), 0);
-  jam_destroy(sys);
-  jam_destroy(plain);
-  jam_destroy(copy);
 }
 
 FIXTURE(make_scratch, remove_scratch)

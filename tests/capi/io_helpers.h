@@ -76,6 +76,14 @@ static inline char *get_bytes(const char *path, size_t *size) {
   return bytes;
 }
 
+static inline void assert_bytes(const char *path, const char *bytes, size_t size) {
+  size_t now;
+  char *text = get_bytes(path, &now);
+  assert_int_equal(now, size);
+  assert_memory_equal(text, bytes, size);
+  free(text);
+}
+
 /* Reads a file with these bytes; layout, o: what the caller says of it, or NULL. */
 static inline jam_status read_bytes(const char *bytes, size_t size, const char *layout, const jam_create_options *o,
                                     jam_system **sys) {

@@ -30,19 +30,17 @@ CASE(headers_as_lammps_takes_them) {
       HEAD "2 0 0 avec\n0 2 0 bvec\n0 0 2 cvec\n0 0 0 abc origin\n" ROWS,
       "\xef\xbb\xbf" HEAD BOX ROWS,
   };
-  size_t k;
-  for (k = 0; k < sizeof texts / sizeof *texts; ++k) same_spheres(read_text(texts[k]), 3, 3, three, size, 2.0);
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; ++k) same_spheres(read_text(texts[k]), 3, 3, three, size, 2.0);
   same_spheres(read_text("t\r\n\r\n3 atoms\r\n" BOX ROWS), 3, 3, three, size, 2.0);
 }
 
 CASE(what_is_not_read_is_said) {
-  jam_system *sys =
+  OWNED jam_system *sys =
       read_text(HEAD "0 2 xlo xhi (x)\n0 2 ylo yhi\n0 2 zlo zhi\n" ROWS "\nVelocities\n\n1 0 0 0 0 0 0\n");
   assert_string_equal(jam_notes(sys),
                       "line 5: text behind 'xhi' was not read\nsections of the file that were not read: Velocities\n"
                       "the file does not say which directions are periodic: all are taken as periodic; the options "
                       "walls and container name walls");
-  jam_destroy(sys);
 }
 
 /* As write_data of LAMMPS leaves it: a box that does not start at 0, atoms in any order, image counts, velocities. */
@@ -64,12 +62,10 @@ CASE(tilts_are_kept) {
       HEAD "2 0 0 avec\n0.5 2 0 bvec\n0 0 2 cvec # rows\n" ROWS,
   };
   double cell[9];
-  size_t k;
-  for (k = 0; k < 2; ++k) {
-    jam_system *sys = read_text(texts[k]);
+  for (size_t k = 0; k < 2; ++k) {
+    OWNED jam_system *sys = read_text(texts[k]);
     jam_get_cell(sys, cell, 9, NULL);
     assert_memory_equal(cell, want, sizeof want);
-    jam_destroy(sys);
   }
 }
 
@@ -127,8 +123,7 @@ CASE(dumps_in_any_form) {
       "ITEM: BOX BOUNDS abc origin pp pp pp\n2 0 0 -1\n0 2 0 0\n0 0 2 1\n"
       "ITEM: ATOMS radius x y z\n0.1 -0.9 0.2 1.3\n0.1 0.6 1.7 2.8\n0.1 -0.65 0.9 1.15\n",
   };
-  size_t k;
-  for (k = 0; k < sizeof texts / sizeof *texts; ++k) {
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; ++k) {
     jam_system *sys = read_text(texts[k]);
     if (k == 0) assert_non_null(strstr(jam_notes(sys), "columns of the file that were not read: type"));
     if (k == 3) {
@@ -143,22 +138,19 @@ CASE(dumps_in_any_form) {
 CASE(tilted_dumps) {
   const double want[9] = {2, 0, 0, 0.5, 2, 0, -0.3, 0.25, 2}, flat[4] = {2, 0, 0.5, 2}, at[2] = {0.35, 0.4};
   double cell[9];
-  const double *x;
-  size_t len;
-  jam_system *sys = read_text(DUMP
-                              "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-0.3 2.5 0.5\n0 2.25 -0.3\n0 2 0.25\n"
-                              "ITEM: ATOMS radius x y z\n0.1 0.5 0.5 0.5\n0.1 1 1 1\n0.1 1.5 1.5 1.5\n");
+  OWNED jam_system *sys = read_text(DUMP
+                                    "ITEM: BOX BOUNDS xy xz yz pp pp pp\n-0.3 2.5 0.5\n0 2.25 -0.3\n0 2 0.25\n"
+                                    "ITEM: ATOMS radius x y z\n0.1 0.5 0.5 0.5\n0.1 1 1 1\n0.1 1.5 1.5 1.5\n");
   jam_get_cell(sys, cell, 9, NULL);
-  for (len = 0; len < 9; ++len) assert_true(fabs(cell[len] - want[len]) < 1e-15);
+  for (size_t len = 0; len < 9; ++len) assert_true(fabs(cell[len] - want[len]) < 1e-15);
   jam_destroy(sys);
   sys = read_text(
       "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 2.5 0.5\n0 2 0\n-0.5 0.5 0\n"
       "ITEM: ATOMS radius xs ys zs\n0.1 0.125 0.2 0.5\n");
   jam_get_cell(sys, cell, 4, NULL);
   assert_memory_equal(cell, flat, sizeof flat);
-  x = view_of(sys, JAM_VIEW_POSITIONS);
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(fabs(x[0] - at[0]) < 1e-15 && fabs(x[1] - at[1]) < 1e-15);
-  jam_destroy(sys);
 }
 
 CASE(dumps_that_cannot_be_read) {
@@ -192,12 +184,11 @@ static jam_status read_walled(const char *text, int32_t container, int32_t walls
 }
 
 static int32_t closed_by(const char *text, int32_t container, int32_t walls, int *noted) {
-  jam_system *sys = NULL;
+  OWNED jam_system *sys = NULL;
   assert_int_equal(read_walled(text, container, walls, &sys), JAM_OK);
   const jam_info info = info_of(sys);
   assert_int_equal(info.container, container);
   *noted = strstr(jam_notes(sys), "does not say which directions are periodic") != NULL;
-  jam_destroy(sys);
   return info.walls;
 }
 

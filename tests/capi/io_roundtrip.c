@@ -4,22 +4,18 @@
 #include "io_helpers.h"
 
 static void round_trip(int32_t dim, double ratio, double box, const char *name, int32_t format) {
-  jam_system *sys = some_packing(dim, 60, ratio, box), *back = NULL;
+  OWNED jam_system *sys = some_packing(dim, 60, ratio, box), *back = NULL;
   const char *path = in_scratch(name);
   assert_int_equal(jam_write(sys, path, format), JAM_OK);
   if (jam_read(path, NULL, NULL, NULL, &back) != JAM_OK) fail_msg("%s", jam_last_error());
   assert_same_bits(sys, back);
-  jam_destroy(back);
-  jam_destroy(sys);
 }
 
 static void all_round_trips(void) {
   const double boxes[] = {1.0, 7.3, 1e-3}, ratios[] = {1.0, 1.4};
-  int32_t dim;
-  size_t b, r;
-  for (dim = 2; dim <= JAM_MAX_DIM; ++dim)
-    for (b = 0; b < 3; ++b)
-      for (r = 0; r < 2; ++r) {
+  for (int32_t dim = 2; dim <= JAM_MAX_DIM; ++dim)
+    for (size_t b = 0; b < 3; ++b)
+      for (size_t r = 0; r < 2; ++r) {
         round_trip(dim, ratios[r], boxes[b], "a.dat", JAM_FORMAT_AUTO);
         round_trip(dim, ratios[r], boxes[b], "a.xyz", JAM_FORMAT_AUTO);
         round_trip(dim, ratios[r], boxes[b], "a.extxyz", JAM_FORMAT_AUTO);
@@ -40,10 +36,9 @@ enum { ENDINGS = sizeof endings / sizeof endings[0] };
 
 static void write_all(const jam_system *sys, const char *name) {
   char path[256];
-  size_t k;
   DEFAULTS(voxel, o);
   o.nx = o.ny = o.nz = 8;
-  for (k = 0; k < ENDINGS; ++k) {
+  for (size_t k = 0; k < ENDINGS; ++k) {
     jam_status status;
     snprintf(path, sizeof path, "%s/%s.%s", scratch, name, endings[k]);
     if (!strcmp(endings[k], "csv") || !strcmp(endings[k], "dump"))
@@ -59,23 +54,20 @@ static void write_all(const jam_system *sys, const char *name) {
 }
 
 static void assert_all_equal(const char *first, const char *second) {
-  char path[256];
-  size_t k, sizes[2];
-  for (k = 0; k < ENDINGS; ++k) {
-    char *one, *two;
+  for (size_t k = 0; k < ENDINGS; ++k) {
+    char path[256];
+    size_t size;
     snprintf(path, sizeof path, "%s/%s.%s", scratch, first, endings[k]);
-    one = get_bytes(path, &sizes[0]);
+    char *text = get_bytes(path, &size);
     snprintf(path, sizeof path, "%s/%s.%s", scratch, second, endings[k]);
-    two = get_bytes(path, &sizes[1]);
-    if (sizes[0] != sizes[1] || memcmp(one, two, sizes[0])) fail_msg("the locale changes %s", endings[k]);
-    free(one), free(two);
+    assert_bytes(path, text, size);
+    free(text);
   }
 }
 
 CASE(locale_with_comma_changes_nothing) {
-  jam_system *sys = some_packing(3, 30, 1.4, 7.3);
+  OWNED jam_system *sys = some_packing(3, 30, 1.4, 7.3);
   size_t size;
-  char *text;
   assert_true(jam_crunch(sys, NULL, NULL) >= 0);
   write_all(sys, "point");
   if (!set_comma_locale(scratch)) {
@@ -88,37 +80,28 @@ CASE(locale_with_comma_changes_nothing) {
   write_all(sys, "commas");
   setlocale(LC_ALL, "C");
   assert_all_equal("point", "commas");
-  jam_destroy(sys);
-  text = get_bytes(in_scratch("comma.dat"), &size);
+  char *text = get_bytes(in_scratch("comma.dat"), &size);
   assert_null(strchr(text, ','));
   free(text);
 }
 
+static void writes(const jam_system *sys, const char *name, const char *text) {
+  assert_int_equal(jam_write(sys, in_scratch(name), JAM_FORMAT_AUTO), JAM_OK);
+  assert_bytes(in_scratch(name), text, strlen(text));
+}
+
 CASE(layout_of_plain) {
   const double x[] = {0.25, 0.5, 0.75, 0.125}, s[] = {0.25, 0.125}, one = 0.25;
-  char *text;
-  size_t size;
   DEFAULTS(create, o);
   o.dim = 2;
-  jam_system *sys = created_from(&o, x, 4, &one, 1);
-  assert_int_equal(jam_write(sys, in_scratch("one.dat"), JAM_FORMAT_AUTO), JAM_OK);
-  jam_destroy(sys);
-  text = get_bytes(in_scratch("one.dat"), &size);
-  assert_string_equal(text, "2\n2\n0.25\n0.25 0.5\n0.75 0.125\n");
-  free(text);
+  OWNED jam_system *equal = created_from(&o, x, 4, &one, 1);
+  writes(equal, "one.dat", "2\n2\n0.25\n0.25 0.5\n0.75 0.125\n");
   o.box = 2.0;
-  assert_int_equal(create_from(&o, x, 4, s, 2, &sys), JAM_OK);
-  assert_int_equal(jam_write(sys, in_scratch("two.dat"), JAM_FORMAT_AUTO), JAM_OK);
-  assert_int_equal(jam_write(sys, in_scratch("two.xyz"), JAM_FORMAT_AUTO), JAM_OK);
-  jam_destroy(sys);
-  text = get_bytes(in_scratch("two.dat"), &size);
-  assert_string_equal(text, "2\n2\ndiameters box 2\n0.25 0.5 0.25\n0.75 0.125 0.125\n");
-  free(text);
-  text = get_bytes(in_scratch("two.xyz"), &size);
-  assert_string_equal(text,
-                      "2\nLattice=\"2 0 0 0 2 0 0 0 2\" Properties=id:I:1:pos:R:3:radius:R:1 pbc=\"T T F\" dim=2\n"
-                      "0 0.25 0.5 0 0.125\n1 0.75 0.125 0 0.0625\n");
-  free(text);
+  OWNED jam_system *sys = created_from(&o, x, 4, s, 2);
+  writes(sys, "two.dat", "2\n2\ndiameters box 2\n0.25 0.5 0.25\n0.75 0.125 0.125\n");
+  writes(sys, "two.xyz",
+         "2\nLattice=\"2 0 0 0 2 0 0 0 2\" Properties=id:I:1:pos:R:3:radius:R:1 pbc=\"T T F\" dim=2\n"
+         "0 0.25 0.5 0 0.125\n1 0.75 0.125 0 0.0625\n");
 }
 
 FIXTURE(make_scratch, remove_scratch)

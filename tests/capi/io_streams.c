@@ -19,13 +19,11 @@ static void ring(suseconds_t every) {
 /* Feeds a file into a pipe, a few bytes at a time; several times a read is amid one of zlib's blocks. */
 static pid_t feed(const char *file, const char *fifo) {
   const pid_t child = fork();
-  size_t size, at;
-  char *bytes;
-  int fd;
+  size_t size;
   if (child) return child;
-  bytes = get_bytes(file, &size);
-  fd = open(fifo, O_WRONLY);
-  for (at = 0; at < size; at += 7000) {
+  char *bytes = get_bytes(file, &size);
+  int fd = open(fifo, O_WRONLY);
+  for (size_t at = 0; at < size; at += 7000) {
     if (write(fd, bytes + at, size - at < 7000 ? size - at : 7000) < 0) _exit(1);
     usleep(3000);
   }
@@ -36,14 +34,12 @@ CASE(signals_do_not_end_a_read) {
   jam_system *sys = some_packing(3, 3000, 1.4, 1.0), *back = NULL;
   const char *names[] = {"plain.dat", "packed.xyz.gz", "state.chk"};
   char fifo[256];
-  int k;
   strcpy(fifo, in_scratch("fifo"));
   assert_int_equal(mkfifo(fifo, 0600), 0);
-  for (k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k) {
     const char *name = in_scratch(names[k]);
-    pid_t child;
     assert_int_equal(k == 2 ? jam_write_checkpoint(sys, name) : jam_write(sys, name, 0), JAM_OK);
-    child = feed(name, fifo);
+    pid_t child = feed(name, fifo);
     ring(1000);
     assert_int_equal(k == 2 ? jam_read_checkpoint(fifo, NULL, NULL, &back) : jam_read(fifo, NULL, NULL, NULL, &back),
                      JAM_OK);
@@ -59,14 +55,13 @@ CASE(signals_do_not_end_a_read) {
 CASE(silent_pipes_are_left) {
   jam_system *sys = NULL;
   char fifo[256];
-  int writer;
   strcpy(fifo, in_scratch("silent"));
   assert_int_equal(mkfifo(fifo, 0600), 0);
   DEFAULTS(create, o);
   o.wall_time = 0.1;
   assert_int_equal(jam_read(fifo, &o, NULL, NULL, &sys), JAM_LIMIT);
   assert_int_equal(jam_read_checkpoint(fifo, stop_at_once, NULL, &sys), JAM_CANCELLED);
-  writer = open(fifo, O_RDWR); /* connected, and still silent */
+  int writer = open(fifo, O_RDWR); /* connected, and still silent */
   assert_int_equal(jam_read(fifo, &o, NULL, NULL, &sys), JAM_LIMIT);
   close(writer);
   assert_null(sys);
@@ -116,12 +111,11 @@ CASE(gzip_members) {
 
 /* What a shell does with >>: earlier and later lines stay, also where a link leads there. */
 CASE(open_files_are_appended_to) {
-  jam_system *sys = some_packing(3, 5, 1.0, 1.0);
+  OWNED jam_system *sys = some_packing(3, 5, 1.0, 1.0);
   const char *path = in_scratch("log.txt"), *plain = in_scratch("alone.dat");
   char names[3][256], *text, *packing;
   const int fd = open(path, O_WRONLY | O_CREAT | O_APPEND, 0600);
   size_t size, one;
-  int k;
   assert_int_equal(jam_write(sys, plain, JAM_FORMAT_PLAIN), JAM_OK);
   packing = get_bytes(plain, &one);
   sprintf(names[0], "/dev/fd/%d", fd);
@@ -129,17 +123,16 @@ CASE(open_files_are_appended_to) {
   strcpy(names[2], in_scratch("to-the-log"));
   assert_int_equal(symlink(names[0], names[2]), 0);
   assert_int_equal(write(fd, "before\n", 7), 7);
-  for (k = 0; k < 3; ++k) assert_int_equal(jam_write(sys, names[k], JAM_FORMAT_PLAIN), JAM_OK);
+  for (int k = 0; k < 3; ++k) assert_int_equal(jam_write(sys, names[k], JAM_FORMAT_PLAIN), JAM_OK);
   assert_int_equal(write(fd, "after\n", 6), 6);
   text = get_bytes(path, &size);
   assert_int_equal(size, 7 + 3 * one + 6);
   assert_memory_equal(text, "before\n", 7);
-  for (k = 0; k < 3; ++k) assert_memory_equal(text + 7 + k * one, packing, one);
+  for (int k = 0; k < 3; ++k) assert_memory_equal(text + 7 + k * one, packing, one);
   assert_string_equal(text + 7 + 3 * one, "after\n");
   free(text), free(packing);
   close(fd);
   assert_int_equal(jam_write(sys, names[0], JAM_FORMAT_PLAIN), JAM_E_IO); /* closed */
-  jam_destroy(sys);
 }
 
 FIXTURE(make_scratch, remove_scratch)

@@ -28,10 +28,9 @@ CASE(headings) {
       "Particle Position X (m),Particle Position Y (m),Particle Position Z (m),Particle Diameter (m)\n.5,.5,.5,.4\n"
       "1.5,1.5,1.5,.5\n",
   };
-  size_t k;
   /* a name with a comma inside its quotes parts the row */
   expect_refused_as(texts[4], "cell=3,3,3", NULL, JAM_E_FORMAT, "line 2");
-  for (k = 0; k < sizeof texts / sizeof *texts; ++k)
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; ++k)
     if (k != 4) expect(read_in(texts[k], "", 3.0), 3, 2, two, sizes);
   expect(read_in("x,y,z,what,r\n.5,.5,.5,\"a b\",.2\n1.5,1.5,1.5,\"c d\",.25\n", "", 3.0), 3, 2, two, sizes);
   expect_refused("x;y;z;r\n0,5;0,5;0,5;0,2\n", JAM_E_FORMAT, "parted by semicolons");
@@ -111,13 +110,12 @@ CASE(what_the_caller_says) {
 CASE(disks_in_a_plane) {
   static const double flat[] = {1, 1, 1, 2.5, 4, 4}, widths[] = {1, 0.75, 1};
   static const char text[] = "x y z r\n1 1 0.5 0.5\n1 2.5 0.5 0.375\n4 4 0.5 0.5\n";
-  jam_system *sys = read_in(text, "", 5.0);
+  OWNED jam_system *sys = read_in(text, "", 5.0);
   assert_non_null(strstr(jam_notes(sys), "d = 2"));
   expect(sys, 2, 3, flat, widths);
   expect(read_as(text, "cell=5,5", NULL), 2, 3, flat, widths);
   sys = read_as(text, "cell=5,5,5", NULL); /* a third side keeps the third direction */
   assert_null(strstr(jam_notes(sys), "d = 2"));
-  jam_destroy(sys);
 }
 
 CASE(cells_of_torquato_and_jiao) {
@@ -146,8 +144,7 @@ CASE(frames_without_spheres) {
       "0\nLattice=\"3 0 0 0 3 0 0 0 3\" Properties=pos:R:3:radius:R:1\n2\nLattice=\"[3,0,0,0,3,0,0,0,3]\" "
       "Properties=pos:R:3:radius:R:1 pbc=\"[T, T, T]\"\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n";
   const char *const texts[] = {dump, xyz};
-  size_t k;
-  for (k = 0; k < 2; ++k) {
+  for (size_t k = 0; k < 2; ++k) {
     jam_system *sys = NULL;
     expect(read_as(texts[k], "", NULL), 3, 2, two, sizes);
     DEFAULTS(create, o);

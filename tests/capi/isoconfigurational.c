@@ -44,31 +44,34 @@ static void get(const jam_system *sys, int64_t block, sums *s) {
   s->runs = (int64_t)table[JAM_ISOCONF_RUNS];
 }
 
+static void same_sums(const jam_system *sys, int64_t block, const sums *expected) {
+  static sums s;
+  get(sys, block, &s);
+  assert_memory_equal(&s, expected, sizeof s);
+}
+
 CASE(bits_do_not_depend_on_threads_or_handles) {
   enum { MANY = 4000 }; /* so many that threads overtake each other */
-  jam_system *one = packing(), *two = packing();
+  OWNED jam_system *one = packing(), *two = packing();
   jam_isoconf_options o = options();
   static sums a, b;
-  int64_t k;
   o.runs = o.block = MANY;
   assert_int_equal(runs_of(one, &o, NULL), JAM_OK);
   o.threads = 2;
   assert_int_equal(runs_of(two, &o, NULL), JAM_OK);
   get(one, -1, &a);
-  get(two, -1, &b);
   assert_int_equal(a.runs, MANY);
-  assert_memory_equal(&a, &b, sizeof a);
+  same_sums(two, -1, &a);
   o = options();
   assert_int_equal(runs_of(one, &o, NULL), JAM_OK);
   /* Each block alone, by another handle. */
-  for (k = 0; k < RUNS / BLOCK; ++k) {
+  for (int64_t k = 0; k < RUNS / BLOCK; ++k) {
     o.threads = 1;
     o.first_run = k * BLOCK;
     o.runs = BLOCK;
     assert_int_equal(runs_of(two, &o, NULL), JAM_OK);
     get(one, k, &a);
-    get(two, 0, &b);
-    assert_memory_equal(&a, &b, sizeof a);
+    same_sums(two, 0, &a);
   }
   /* One run alone: what distinguishes the blocks of one run from each other. */
   o.first_run = 5;
@@ -79,12 +82,10 @@ CASE(bits_do_not_depend_on_threads_or_handles) {
   assert_int_equal(runs_of(two, &o, NULL), JAM_OK);
   get(two, -1, &b);
   assert_memory_not_equal(a.displacement, b.displacement, sizeof a.displacement);
-  jam_destroy(one);
-  jam_destroy(two);
 }
 
 CASE(stopped_runs_are_kept_and_resume) {
-  jam_system *whole = packing(), *cut = packing(), *again;
+  OWNED jam_system *whole = packing(), *cut = packing(), *again = NULL;
   jam_isoconf_options o = options();
   jam_isoconf_report r;
   static sums a, b;
@@ -92,7 +93,6 @@ CASE(stopped_runs_are_kept_and_resume) {
   get(whole, -1, &a);
   o.runs = 6; /* amid a block */
   assert_int_equal(runs_of(cut, &o, &r), JAM_OK);
-  get(cut, -1, &b);
   o.runs = RUNS;
   o.resume = 1;
   assert_int_equal(jam_set_progress(cut, stop_at_once, NULL), JAM_OK);
@@ -104,11 +104,9 @@ CASE(stopped_runs_are_kept_and_resume) {
   assert_in_range(r.runs, 6, RUNS - 1);
   again = from_checkpoint(cut);
   assert_int_equal(runs_of(again, &o, &r), JAM_OK);
-  get(again, -1, &b);
-  assert_memory_equal(&a, &b, sizeof a);
+  same_sums(again, -1, &a);
   assert_int_equal(runs_of(cut, &o, &r), JAM_OK);
-  get(cut, -1, &b);
-  assert_memory_equal(&a, &b, sizeof a);
+  same_sums(cut, -1, &a);
   /* More runs than were asked for first. */
   o.runs = RUNS + 3;
   assert_int_equal(runs_of(cut, &o, &r), JAM_OK);
@@ -122,30 +120,27 @@ CASE(stopped_runs_are_kept_and_resume) {
   assert_int_equal(runs_of(cut, &o, &r), JAM_E_STATE);
   get(cut, -1, &b);
   assert_int_equal(b.runs, RUNS + 3);
-  jam_destroy(again);
-  jam_destroy(whole);
-  jam_destroy(cut);
 }
 
 CASE(sums_are_those_of_whole_sets) {
   static double set[RUNS * N * D];
   static const int32_t kept[1] = {1};
-  jam_system *sys = packing();
+  OWNED jam_system *sys = packing();
   jam_isoconf_options o = options();
   double series[M * COLUMNS], msd_sum = 0.0;
   static sums a;
-  size_t needed = 0, i, k, c;
+  size_t needed = 0;
   assert_int_equal(jam_isoconf(sys, &o, NULL, instants, M, kept, 1, NULL), JAM_OK);
   get(sys, -1, &a);
   assert_int_equal(jam_isoconf_kept(sys, 1, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, RUNS * N * D);
   assert_int_equal(jam_isoconf_kept(sys, 1, set, needed, &needed), JAM_OK);
   assert_int_equal(jam_isoconf_kept(sys, 0, set, needed, &needed), JAM_E_STATE);
-  for (i = 0; i < N; ++i) {
+  for (size_t i = 0; i < N; ++i) {
     double r2 = 0.0, r4 = 0.0, x[D] = {0.0, 0.0, 0.0};
-    for (k = 0; k < RUNS; ++k) {
+    for (size_t k = 0; k < RUNS; ++k) {
       double one = 0.0;
-      for (c = 0; c < D; ++c) {
+      for (size_t c = 0; c < D; ++c) {
         const double v = set[(k * N + i) * D + c];
         x[c] += v;
         one += v * v;
@@ -153,7 +148,7 @@ CASE(sums_are_those_of_whole_sets) {
       r2 += one;
       r4 += one * one;
     }
-    for (c = 0; c < D; ++c) assert_true(fabs(x[c] - a.displacement[(N + i) * D + c]) < 1e-13);
+    for (size_t c = 0; c < D; ++c) assert_true(fabs(x[c] - a.displacement[(N + i) * D + c]) < 1e-13);
     assert_true(fabs(r2 - a.distance2[N + i]) < 1e-12 * r2);
     assert_true(fabs(r4 - a.distance4[N + i]) < 1e-12 * r4);
     msd_sum += r2 / N;
@@ -161,19 +156,18 @@ CASE(sums_are_those_of_whole_sets) {
   assert_int_equal(jam_isoconf_series(sys, -1, JAM_ISOCONF_COLUMNS, series, M * COLUMNS, NULL), JAM_OK);
   assert_true(fabs(series[COLUMNS + JAM_ISOCONF_MSD] / msd_sum - 1.0) < 1e-12);
   /* No net momentum: the spheres' displacements of each run add up to zero. */
-  for (k = 0; k < RUNS; ++k)
-    for (c = 0; c < D; ++c) {
+  for (size_t k = 0; k < RUNS; ++k)
+    for (size_t c = 0; c < D; ++c) {
       double sum = 0.0;
-      for (i = 0; i < N; ++i) sum += set[(k * N + i) * D + c];
+      for (size_t i = 0; i < N; ++i) sum += set[(k * N + i) * D + c];
       assert_true(fabs(sum) < 1e-12);
     }
-  jam_destroy(sys);
 }
 
 /* In free flight, dr = v t: at short times |dr|^2 = d T t^2 and the velocities still agree with the first ones. */
 CASE(time_and_temperature_are_those_asked_for) {
   static const double times[2] = {1e-7, 2e-7};
-  jam_system *sys = packing();
+  OWNED jam_system *sys = packing();
   jam_isoconf_options o = options();
   double first[2 * COLUMNS], *const second = first + COLUMNS;
   o.clock = JAM_CLOCK_TIME;
@@ -184,13 +178,12 @@ CASE(time_and_temperature_are_those_asked_for) {
   assert_true(fabs(first[JAM_ISOCONF_MSD] / RUNS / (D * 0.1 * 1e-14) - 1.0) < 1e-3);
   assert_true(fabs(second[JAM_ISOCONF_MSD] / first[JAM_ISOCONF_MSD] - 4.0) < 1e-2);
   assert_true(fabs(first[JAM_ISOCONF_VELOCITY] / RUNS - 1.0) < 1e-3);
-  jam_destroy(sys);
 }
 
 CASE(bad_input_is_named) {
   static const double falling[2] = {2.0, 1.0}, none[1] = {0.0};
   static const int32_t twice[2] = {1, 1}, beyond[1] = {3};
-  jam_system *sys = packing();
+  OWNED jam_system *sys = packing();
   jam_isoconf_options o = options();
   double x;
   SIZED(jam_isoconf_report, r);
@@ -219,12 +212,11 @@ CASE(bad_input_is_named) {
   assert_int_equal(r.runs, RUNS);
   assert_int_equal(jam_isoconf_series(sys, 3, JAM_ISOCONF_COLUMNS, &x, 1, NULL), JAM_E_ARGUMENT);
   assert_int_equal(jam_isoconf_series(sys, 0, JAM_ISOCONF_COLUMNS, &x, 1, NULL), JAM_E_BUFFER);
-  jam_destroy(sys);
 }
 
 /* Options that these runs do not use, and others than those that the runs began with. */
 CASE(no_option_is_ignored) {
-  jam_system *sys = packing();
+  OWNED jam_system *sys = packing();
   jam_isoconf_options o = options();
   jam_monte_carlo_options m;
 #define MONTE_CARLO(member, value, code)                                \
@@ -244,11 +236,10 @@ CASE(no_option_is_ignored) {
   o.resume = 1, o.runs += 2;
   MONTE_CARLO(acceptance, 0.3, JAM_E_STATE);
   MONTE_CARLO(acceptance, 0.6, JAM_OK);
-  jam_destroy(sys);
 }
 
 CASE(a_jammed_packing_needs_room) {
-  jam_system *sys = packing();
+  OWNED jam_system *sys = packing();
   jam_isoconf_options o = options();
   jam_isoconf_report r;
   DEFAULTS(compress, c);
@@ -262,7 +253,6 @@ CASE(a_jammed_packing_needs_room) {
   o.density_ratio = 1.0 - 1e-10; /* the nearest decade that positions can resolve */
   assert_int_equal(runs_of(sys, &o, &r), JAM_OK);
   assert_true(r.energy_drift < 1e-10 && r.max_overlap < 1e-13);
-  jam_destroy(sys);
 }
 
 CASE(one_sphere_cannot_run) {
@@ -271,9 +261,8 @@ CASE(one_sphere_cannot_run) {
   jam_isoconf_report r;
   DEFAULTS(create, o);
   o.n = 1;
-  jam_system *sys = created_from(&o, x, 3, &sigma, 1);
+  OWNED jam_system *sys = created_from(&o, x, 3, &sigma, 1);
   assert_int_equal(runs_of(sys, &i, &r), JAM_NOT_CONVERGED);
   assert_int_equal(r.stop_reason, JAM_STOP_STALLED);
   assert_int_equal(r.runs, 0);
-  jam_destroy(sys);
 }

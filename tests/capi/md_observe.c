@@ -25,29 +25,28 @@ static void copy_positions(const jam_system *sys, double *out) {
 }
 
 CASE(series_pairs_and_displacements_agree) {
-  jam_system *sys = fluid(0.25), *bare = NULL;
-  jam_md_report report, second;
+  OWNED jam_system *sys = fluid(0.25), *bare = NULL;
   static double start[3 * N], end[3 * N], way[3 * N], time[100], count[100], pressure[100], error[100], msd[100],
       table[480];
   static int64_t collisions[N];
-  const double *d, *v;
+  const double *v;
   double mean = 0, total_time, virial = 0, square = 0, furthest = 0, twice_kinetic = 0;
   int64_t sum = 0, sum_pairs = 0, *pair_collisions;
   int32_t *pair;
   double *momentum;
-  size_t needed, k, len;
+  size_t needed, len;
   assert_int_equal(jam_copy(sys, &bare), JAM_OK);
   DEFAULTS(observe, o);
   o.collisions = 1;
   copy_positions(sys, start);
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
-  report = run(sys, 400);
-  second = run(sys, 400); /* observations go on over calls */
+  jam_md_report report = run(sys, 400);
+  jam_md_report second = run(sys, 400); /* observations go on over calls */
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 80 * 6);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, table, 479, &needed), JAM_E_BUFFER);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, table, 480, &needed), JAM_OK);
-  for (k = 0; k < 80; ++k) {
+  for (size_t k = 0; k < 80; ++k) {
     const double *row = table + 6 * k;
     time[k] = row[JAM_SERIES_TIME], count[k] = row[JAM_SERIES_COLLISIONS], pressure[k] = row[JAM_SERIES_PRESSURE];
     error[k] = row[JAM_SERIES_ERROR], msd[k] = row[JAM_SERIES_MSD];
@@ -60,7 +59,7 @@ CASE(series_pairs_and_displacements_agree) {
   assert_int_equal(jam_observed_spheres(sys, collisions, N, way, 3 * N, &needed), JAM_OK);
   assert_int_equal(needed, N);
   copy_positions(sys, end);
-  for (k = 0; k < 3 * N; ++k) { /* the unwrapped way leads from start to end */
+  for (size_t k = 0; k < 3 * N; ++k) { /* the unwrapped way leads from start to end */
     const double boxes = (end[k] - start[k] - way[k]) / 2.0;
     assert_true(fabs(boxes - round(boxes)) < 1e-9);
     square += way[k] * way[k] / N;
@@ -68,7 +67,7 @@ CASE(series_pairs_and_displacements_agree) {
   }
   assert_true(furthest > 1.5); /* more than half the box: the sum over images matters */
   assert_true(fabs(msd[79] / square - 1.0) < 1e-9);
-  for (k = 0; k < N; ++k) sum += collisions[k];
+  for (size_t k = 0; k < N; ++k) sum += collisions[k];
   assert_int_equal(sum, 800 * N);
   assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, &total_time, &needed), JAM_OK);
   pair = malloc(2 * needed * sizeof *pair), momentum = malloc(needed * sizeof *momentum),
@@ -76,8 +75,8 @@ CASE(series_pairs_and_displacements_agree) {
   assert_int_equal(
       jam_observed_pairs(sys, pair, 2 * needed, pair_collisions, needed, momentum, needed, &total_time, &needed),
       JAM_OK);
-  d = view_of(sys, JAM_VIEW_DIAMETERS);
-  for (k = 0; k < needed; ++k) {
+  const double *d = view_of(sys, JAM_VIEW_DIAMETERS);
+  for (size_t k = 0; k < needed; ++k) {
     assert_true(pair[2 * k] >= 0 && pair[2 * k] < pair[2 * k + 1] && pair[2 * k + 1] < N && momentum[k] > 0.0);
     if (k) assert_true(pair[2 * k] > pair[2 * k - 2] || pair[2 * k + 1] > pair[2 * k - 1]);
     virial += momentum[k] * d[0] / 2.0; /* in units of the box */
@@ -86,7 +85,7 @@ CASE(series_pairs_and_displacements_agree) {
   assert_int_equal(sum_pairs, 400 * N);
   /* p = 1 + (N - 1) / N sum sigma |dp| / (2 K t), for d (N - 1) degrees of freedom: what the two reports say. */
   jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len);
-  for (k = 0; k < len; ++k) twice_kinetic += v[k] * v[k];
+  for (size_t k = 0; k < len; ++k) twice_kinetic += v[k] * v[k];
   mean = (report.pressure * report.time + second.pressure * second.time) / (report.time + second.time);
   assert_true(fabs((1.0 + (N - 1.0) / N * virial / (twice_kinetic * total_time)) / mean - 1.0) < 1e-9);
   assert_true(fabs(time[79] / total_time - 1.0) < 1e-6);
@@ -97,14 +96,12 @@ CASE(series_pairs_and_displacements_agree) {
   run(sys, 100);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 80 * 6); /* stopped, and still there */
-  jam_destroy(sys);
-  jam_destroy(bare);
 }
 
 CASE(histograms_of_gaps_and_distances) {
-  jam_system *sys = fluid(0.3);
+  OWNED jam_system *sys = fluid(0.3);
   double gap[21][4], pair[50][2], contact;
-  size_t needed, k;
+  size_t needed;
   DEFAULTS(observe, o);
   o.gap_bins = 21;
   o.gap_min = 0.01;
@@ -127,7 +124,7 @@ CASE(histograms_of_gaps_and_distances) {
   assert_true(gap[20][JAM_GAP_DENSITY] < 0.75 * gap[0][JAM_GAP_DENSITY]);
   assert_int_equal(jam_observed_correlation(sys, JAM_CORRELATION_COLUMNS, pair[0], 50 * 2, &needed), JAM_OK);
   assert_int_equal(needed, 50 * 2);
-  for (k = 0; k < 50; ++k) {
+  for (size_t k = 0; k < 50; ++k) {
     const double r = pair[k][JAM_CORRELATION_R], g = pair[k][JAM_CORRELATION_G];
     assert_true(fabs(r - 0.1 * ((double)k + 0.5)) < 1e-12);
     if (r < 0.9) assert_true(g == 0.0);
@@ -136,14 +133,13 @@ CASE(histograms_of_gaps_and_distances) {
   /* Both histograms of the same pairs: g of the first full bin beyond contact between the values of its ends. */
   assert_true(pair[10][JAM_CORRELATION_G] > gap[10][JAM_GAP_DENSITY] * 0.9 &&
               pair[10][JAM_CORRELATION_G] < gap[0][JAM_GAP_DENSITY]);
-  jam_destroy(sys);
 }
 
 /* Of 20 spheres, a histogram taken at collisions would hold one pair in contact more than on average: in a first bin of
  * 1 / 50 that is 1 / (4 N phi (1.02^3 - 1)), a third of g. The pressure says what g is: p - 1 = 4 phi g (N - 1) / N. */
 CASE(histograms_are_not_taken_at_collisions) {
   const double n = 20.0, fraction = 0.3;
-  jam_system *sys = fluid_of(20, fraction);
+  OWNED jam_system *sys = fluid_of(20, fraction);
   double gap[3][4], contact;
   size_t needed;
   DEFAULTS(observe, o);
@@ -159,7 +155,6 @@ CASE(histograms_are_not_taken_at_collisions) {
                 gap[0][JAM_GAP_ERROR]);
   assert_true(gap[0][JAM_GAP_ERROR] < 0.03 * contact);
   assert_true(fabs(gap[0][JAM_GAP_DENSITY] / contact - 0.96) < 0.02 + 4.0 * gap[0][JAM_GAP_ERROR] / contact);
-  jam_destroy(sys);
 }
 
 struct seen {
@@ -186,9 +181,8 @@ static int32_t look(const jam_progress *p, void *user) {
 }
 
 CASE(snapshots_show_the_present_state) {
-  jam_system *sys = fluid(0.45), *bare = NULL;
+  OWNED jam_system *sys = fluid(0.45), *bare = NULL;
   struct seen s;
-  int64_t k;
   jam_copy(sys, &bare);
   DEFAULTS(observe, o);
   o.sample_every = INFINITY;
@@ -201,7 +195,7 @@ CASE(snapshots_show_the_present_state) {
   run(sys, 100);
   run(bare, 100);
   assert_int_equal(s.count, 6); /* 1, 3, 7, 15, 31, 63 */
-  for (k = 0; k < 6; ++k) assert_int_equal(s.at[k], ((2 << k) - 1) * N / 2);
+  for (int64_t k = 0; k < 6; ++k) assert_int_equal(s.at[k], ((2 << k) - 1) * N / 2);
   same(sys, bare);
   o.snapshot_factor = 1.0;
   s.count = 0;
@@ -217,20 +211,17 @@ CASE(snapshots_show_the_present_state) {
     run(bare, 100);
     same(sys, bare);
   }
-  jam_destroy(sys);
-  jam_destroy(bare);
 }
 
 CASE(what_was_not_observed_is_told) {
   int64_t collisions[8];
   double x[8];
   size_t needed = 77;
-  jam_system *sys = random_spheres(3, 8, 0.0, 1);
+  OWNED jam_system *sys = random_spheres(3, 8, 0.0, 1);
   assert_int_equal(jam_observe(sys, NULL), JAM_OK); /* the series alone */
   assert_int_equal(jam_observed_spheres(sys, collisions, 8, NULL, 0, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_pairs(sys, NULL, 0, NULL, 0, NULL, 0, x, &needed), JAM_E_STATE);
   assert_int_equal(jam_observed_gaps(sys, JAM_GAP_COLUMNS, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 0);
   assert_int_equal(jam_observed_series(sys, JAM_SERIES_COLUMNS, NULL, 4, &needed), JAM_E_NULL);
-  jam_destroy(sys);
 }

@@ -18,10 +18,9 @@ static jam_compress_options defaults(void) {
 
 /* Options that change no stage give the bits of no options. */
 CASE(limits_keep_the_protocol) {
-  jam_system *plain = start(), *limited = start(), *law = start();
+  OWNED jam_system *plain = start(), *limited = start(), *law = start();
   jam_compress_options o = defaults();
-  jam_md_report r;
-  r = grow(plain, NULL, JAM_OK);
+  jam_md_report r = grow(plain, NULL, JAM_OK);
   assert_true(r.pressure > 0.9e6);
   o.wall_time = 1e6, o.collisions_per_particle = 1e9, o.packing_fraction = 0.9, o.time = 1e9;
   r = grow(limited, &o, JAM_NOT_CONVERGED); /* of 0.9 */
@@ -32,17 +31,13 @@ CASE(limits_keep_the_protocol) {
   o.growth_law = JAM_GROWTH_DENSITY;
   r = grow(law, &o, JAM_OK);
   assert_true(r.pressure > 0.9e6);
-  jam_destroy(law);
-  jam_destroy(limited);
-  jam_destroy(plain);
 }
 
 CASE(targets_end_the_protocol) {
-  jam_system *low = start(), *high = start(), *dense = start();
+  OWNED jam_system *low = start(), *high = start(), *dense = start();
   jam_compress_options o = defaults();
-  jam_md_report r;
   o.pressure = 30.0;
-  r = grow(low, &o, JAM_OK);
+  jam_md_report r = grow(low, &o, JAM_OK);
   assert_true(r.pressure > 25.0 && r.pressure < 100.0);
   o.pressure = 1e4;
   r = grow(high, &o, JAM_OK);
@@ -52,32 +47,26 @@ CASE(targets_end_the_protocol) {
   r = grow(dense, &o, JAM_OK);
   assert_int_equal(r.stop_reason, JAM_STOP_PACKING_FRACTION);
   assert_true(fabs(r.packing_fraction - 0.5) < 1e-6);
-  jam_destroy(dense);
-  jam_destroy(high);
-  jam_destroy(low);
 }
 
 /* One stage of a rate of one's own goes to the same pressure as jam-pack --growth RATE. */
 CASE(a_rate_makes_one_stage) {
-  jam_system *one = start(), *two = start();
+  OWNED jam_system *one = start(), *two = start();
   jam_compress_options o = defaults();
-  jam_md_report r;
   o.growth_rate = 0.1;
-  r = grow(one, &o, JAM_OK);
+  jam_md_report r = grow(one, &o, JAM_OK);
   assert_true(r.pressure > 0.9e6);
   assert_true(fabs(r.growth_rate / 0.1 - 1.0) < 1e-12);
   o.growth_rate = 0.0, o.growth_rate_end = 1e-3;
   SAYS(jam_compress(two, &o, NULL), JAM_E_ARGUMENT, "growth_rate_end");
   o.growth_rate = -1.0, o.growth_rate_end = 0.0;
   assert_int_equal(jam_compress(two, &o, NULL), JAM_E_ARGUMENT);
-  jam_destroy(two);
-  jam_destroy(one);
 }
 
 /* Slices of wall time, which is that of the call, not of each stage: however often it is stopped, also between two
  * stages and across checkpoints, it ends as if it had not been. */
 CASE(a_stopped_protocol_goes_on) {
-  jam_system *whole = start(), *cut = start();
+  OWNED jam_system *whole = start(), *cut = start();
   jam_compress_options o = defaults();
   int calls = 0;
   jam_status status;
@@ -93,6 +82,4 @@ CASE(a_stopped_protocol_goes_on) {
   assert_int_equal(status, JAM_OK);
   assert_true(calls > 0);
   same_view(whole, cut, JAM_VIEW_POSITIONS);
-  jam_destroy(cut);
-  jam_destroy(whole);
 }

@@ -17,7 +17,7 @@ static void move(jam_system *sys, int32_t model) {
 
 CASE(resumes_to_the_same_bits) {
   for (int32_t model = JAM_MODEL_EUCLID; model <= JAM_MODEL_MK; ++model) {
-    jam_system *a = make(model, 120), *b;
+    OWNED jam_system *a = make(model, 120), *b = NULL;
     move(a, model);
     b = from_checkpoint(a);
     same(a, b);
@@ -26,8 +26,6 @@ CASE(resumes_to_the_same_bits) {
     assert_int_equal(jam_compress(a, NULL, NULL), JAM_OK);
     assert_int_equal(jam_compress(b, NULL, NULL), JAM_OK);
     same(a, b);
-    jam_destroy(a);
-    jam_destroy(b);
   }
 }
 
@@ -43,14 +41,14 @@ static jam_status read_state(const char *bytes, size_t size, jam_system **out) {
 
 CASE(refuses_what_is_no_checkpoint) {
   jam_system *sys = make(JAM_MODEL_MK, 120), *out = NULL;
-  size_t size, at;
+  size_t size;
   assert_int_equal(jam_write_checkpoint(sys, NULL), JAM_E_NULL);
   assert_int_equal(jam_read_checkpoint(NULL, NULL, NULL, &out), JAM_E_NULL);
   assert_int_equal(jam_read_checkpoint("no such file", NULL, NULL, &out), JAM_E_IO);
   assert_int_equal(jam_write_checkpoint(sys, "no such folder/x"), JAM_E_IO);
   char *data = bytes_of(sys, &size);
-  for (at = 0; at < size; at += size / 17) assert_int_equal(read_state(data, at, &out), JAM_E_FORMAT);
-  for (at = 0; at < size; at += size / 23) { /* a bit changed anywhere */
+  for (size_t at = 0; at < size; at += size / 17) assert_int_equal(read_state(data, at, &out), JAM_E_FORMAT);
+  for (size_t at = 0; at < size; at += size / 23) { /* a bit changed anywhere */
     data[at] ^= 4;
     assert_int_equal(read_state(data, size, &out), JAM_E_FORMAT);
     data[at] ^= 4;
@@ -76,7 +74,7 @@ CASE(damaged_stages_are_refused) {
     DEFAULTS(create, o);
     o.n = 60, o.model = model, o.packing_fraction = 0.3;
     jam_system *sys = created(&o), *out = NULL;
-    size_t size, k, at;
+    size_t size;
     int refused = 0;
     DEFAULTS(compress, c);
     c.collisions_per_particle = 20;
@@ -84,11 +82,11 @@ CASE(damaged_stages_are_refused) {
     char *data = bytes_of(sys, &size);
     c.resume = 1, c.collisions_per_particle = 25, c.wall_time = 0.2;
     assert_true(size > 9000);
-    for (at = 60 * 7 * 8 + 100; at + 8 < size; at += 211) {
+    for (size_t at = 60 * 7 * 8 + 100; at + 8 < size; at += 211) {
       const char was = data[at];
       uint64_t sum = 0x6a616d, word;
       data[at] ^= (char)(1u << at % 8);
-      for (k = 0; k < size - 8; k += 8) {
+      for (size_t k = 0; k < size - 8; k += 8) {
         word = 0;
         memcpy(&word, data + k, size - 8 - k < 8 ? size - 8 - k : 8);
         sum = mix64(sum ^ word);

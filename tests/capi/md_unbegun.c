@@ -5,9 +5,8 @@
 /* How a stopped call is continued: on the handle, on a copy, from a checkpoint. */
 enum { HERE, COPY, FILE_, WAYS };
 static jam_system *move(jam_system *sys, int way) {
-  jam_system *next;
   if (way == HERE) return sys;
-  next = way == COPY ? copy_of(sys) : from_checkpoint(sys);
+  jam_system *next = way == COPY ? copy_of(sys) : from_checkpoint(sys);
   jam_destroy(sys);
   return next;
 }
@@ -36,18 +35,15 @@ static jam_status md(jam_system *sys, int verb, int32_t resume, double wall_time
 
 CASE(a_call_that_has_not_begun_is_resumed) {
   const int32_t verbs[] = {JAM_PHASE_RUN, JAM_PHASE_COMPRESS, JAM_PHASE_MONTE_CARLO};
-  size_t v;
-  int way, cut;
-  for (v = 0; v < 3; ++v) {
-    jam_system *whole = random_spheres(3, 2000, 0.0, 5);
+  for (size_t v = 0; v < 3; ++v) {
+    OWNED jam_system *whole = random_spheres(3, 2000, 0.0, 5);
     assert_int_equal(md(whole, verbs[v], 0, INFINITY, NULL), JAM_OK);
-    for (way = 0; way < WAYS; ++way)
-      for (cut = 0; cut < 2; ++cut) { /* by wall_time, by a cancel that came before */
-        jam_system *sys = random_spheres(3, 2000, 0.0, 5);
+    for (int way = 0; way < WAYS; ++way)
+      for (int cut = 0; cut < 2; ++cut) { /* by wall_time, by a cancel that came before */
+        OWNED jam_system *sys = random_spheres(3, 2000, 0.0, 5);
         const int32_t why = cut ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
         int32_t reason = 0;
-        int k;
-        for (k = 0; k < 2; ++k) {
+        for (int k = 0; k < 2; ++k) {
           if (cut) jam_cancel(sys);
           assert_int_equal(md(sys, verbs[v], k, cut ? INFINITY : 1e-9, &reason), cut ? JAM_CANCELLED : JAM_LIMIT);
           assert_int_equal(reason, why);
@@ -58,16 +54,14 @@ CASE(a_call_that_has_not_begun_is_resumed) {
         }
         assert_int_equal(md(sys, verbs[v], 1, INFINITY, NULL), JAM_OK);
         same(sys, whole);
-        jam_destroy(sys);
       }
-    jam_destroy(whole);
   }
 }
 
 /* Each call makes one sweep of the tuning at least: calls without any time come to the bits of one that has all of it.
  */
 CASE(a_tuning_is_resumed) {
-  jam_system *whole = random_spheres(3, 200, 0.0, 5), *sys = random_spheres(3, 200, 0.0, 5);
+  OWNED jam_system *whole = random_spheres(3, 200, 0.0, 5), *sys = random_spheres(3, 200, 0.0, 5);
   int calls = 0;
   assert_int_equal(md(whole, JAM_PHASE_MONTE_CARLO, 0, INFINITY, NULL), JAM_OK);
   SIZED(jam_monte_carlo_report, r);
@@ -82,18 +76,16 @@ CASE(a_tuning_is_resumed) {
   assert_true(calls > 100 && calls < 1000);
   assert_int_equal(md(sys, JAM_PHASE_MONTE_CARLO, 1, INFINITY, NULL), JAM_OK);
   same(sys, whole);
-  jam_destroy(whole), jam_destroy(sys);
 }
 
 /* A run that continues has its own options: another one is refused by its name, and the run waits on. */
 CASE(a_resumed_run_keeps_its_options) {
-  jam_system *sys = random_spheres(3, 50, 0.0, 5);
-  int k;
+  OWNED jam_system *sys = random_spheres(3, 50, 0.0, 5);
   SIZED(jam_monte_carlo_report, r);
   DEFAULTS(monte_carlo, o);
   o.sweeps = 20, o.step = 0.1, o.wall_time = 1e-9;
   assert_int_equal(jam_monte_carlo(sys, &o, &r), JAM_LIMIT);
-  for (k = 0; k < 5; ++k) {
+  for (int k = 0; k < 5; ++k) {
     static const char *const names[] = {"alpha", "step", "swap_share", "run", "first_sweep"};
     jam_monte_carlo_options_init(&o, sizeof o);
     o.resume = 1, o.sweeps = 20;
@@ -108,14 +100,13 @@ CASE(a_resumed_run_keeps_its_options) {
   jam_monte_carlo_options_init(&o, sizeof o);
   o.resume = 1, o.sweeps = 20, o.step = 0.1;
   assert_int_equal(jam_monte_carlo(sys, &o, &r), JAM_OK);
-  jam_destroy(sys);
 }
 
 /* The same of runs from one configuration. */
 CASE(a_tuning_of_runs_is_resumed) {
   jam_isoconf_report r[2];
   const double instants[] = {2.0, 5.0};
-  jam_system *whole = random_spheres(3, 200, 0.0, 5), *sys = random_spheres(3, 200, 0.0, 5);
+  OWNED jam_system *whole = random_spheres(3, 200, 0.0, 5), *sys = random_spheres(3, 200, 0.0, 5);
   jam_status status;
   int calls = 0;
   r[0].struct_size = r[1].struct_size = sizeof r[0];
@@ -133,17 +124,15 @@ CASE(a_tuning_of_runs_is_resumed) {
   o.wall_time = INFINITY;
   assert_int_equal(jam_isoconf(sys, &o, &mc, instants, 2, NULL, 0, &r[1]), JAM_OK);
   assert_true(r[0].step == r[1].step && r[1].runs == 3);
-  jam_destroy(whole), jam_destroy(sys);
 }
 
 /* A call that has not begun leaves the results of a crunch: nothing has moved. */
 CASE(results_stay_until_something_moves) {
   size_t pairs = 0;
-  jam_system *sys = random_spheres(2, 30, 0.0, 5);
+  OWNED jam_system *sys = random_spheres(2, 30, 0.0, 5);
   SIZED(jam_crunch_report, r);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
   assert_int_equal(md(sys, JAM_PHASE_RUN, 0, 1e-9, NULL), JAM_LIMIT);
   assert_int_equal(jam_contacts(sys, NULL, 0, &pairs), JAM_OK);
   assert_true(pairs > 0);
-  jam_destroy(sys);
 }

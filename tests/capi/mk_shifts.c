@@ -18,12 +18,11 @@ CASE(distances_are_those_of_the_gaps) {
   static double gap[MOST], shift[3 * MOST];
   for (int dim = 2; dim <= 3; ++dim)
     for (int strength = 0; strength < 2; ++strength) {
-      jam_system *sys = fluid(dim, JAM_MODEL_MK, strength ? INFINITY : 0.7);
-      const double *x, *sigma;
+      OWNED jam_system *sys = fluid(dim, JAM_MODEL_MK, strength ? INFINITY : 0.7);
       size_t gaps, needed;
       const jam_info info = info_of(sys);
-      x = view_of(sys, JAM_VIEW_POSITIONS);
-      sigma = view_of(sys, JAM_VIEW_DIAMETERS);
+      const double *x = view_of(sys, JAM_VIEW_POSITIONS);
+      const double *sigma = view_of(sys, JAM_VIEW_DIAMETERS);
       assert_int_equal(jam_gaps(sys, 0.3, 0, gap, MOST, pair, 2 * MOST, &gaps), JAM_OK);
       assert_true(gaps > 50);
       assert_int_equal(jam_mk_shifts(sys, pair, 2 * gaps, shift, 3 * MOST, &needed), JAM_OK);
@@ -38,7 +37,6 @@ CASE(distances_are_those_of_the_gaps) {
         }
         assert_true(fabs(sqrt(r2) / (0.5 * (sigma[i] + sigma[j])) - 1.0 - gap[k]) < 1e-12);
       }
-      jam_destroy(sys);
     }
 }
 
@@ -46,7 +44,7 @@ CASE(shifts_are_antisymmetric_and_other_pairs_are_refused) {
   const int32_t pair[6] = {4, 17, 17, 4, 5, 5}, far[2] = {0, N};
   double shift[9];
   size_t needed;
-  jam_system *sys = fluid(3, JAM_MODEL_MK, INFINITY), *plain = fluid(3, JAM_MODEL_EUCLID, 0.0);
+  OWNED jam_system *sys = fluid(3, JAM_MODEL_MK, INFINITY), *plain = fluid(3, JAM_MODEL_EUCLID, 0.0);
   assert_int_equal(jam_mk_shifts(sys, pair, 6, shift, 9, &needed), JAM_OK);
   for (int c = 0; c < 3; ++c) {
     assert_true(shift[c] == -shift[3 + c] && shift[c] != 0.0 && fabs(shift[c]) <= 0.5);
@@ -58,6 +56,4 @@ CASE(shifts_are_antisymmetric_and_other_pairs_are_refused) {
   assert_int_equal(jam_mk_shifts(sys, far, 2, shift, 9, &needed), JAM_E_ARGUMENT);
   assert_int_equal(jam_mk_shifts(sys, pair, 3, shift, 9, &needed), JAM_E_ARGUMENT);
   assert_int_equal(jam_mk_shifts(plain, pair, 6, shift, 9, &needed), JAM_E_UNSUPPORTED);
-  jam_destroy(sys);
-  jam_destroy(plain);
 }

@@ -33,10 +33,9 @@ static jam_system *random_start(int32_t dim, int64_t n, seen *s) {
 }
 
 CASE(growth_knows_its_pressure) {
-  int kind;
-  for (kind = 0; kind < 4; ++kind) {
+  for (int kind = 0; kind < 4; ++kind) {
     seen s;
-    jam_system *sys = random_start(3, 1500, &s);
+    OWNED jam_system *sys = random_start(3, 1500, &s);
     DEFAULTS(compress, c);
     c.growth_rate = 3e-2, c.pressure = 1e4;
     if (kind == 1) c.pressure = INFINITY, c.packing_fraction = 0.6;
@@ -50,25 +49,22 @@ CASE(growth_knows_its_pressure) {
     print_message("growth %d: %d reports, %d with a fraction, last %.3f, %d with a time\n", kind, s.reports, s.known,
                   s.last, s.times);
     if (s.reports > 10) assert_true(s.last > 0.5);
-    jam_destroy(sys);
   }
 }
 
 /* The protocol of NULL is one call: the fraction counts both stages. */
 CASE(a_protocol_is_one_call) {
   seen s;
-  jam_system *sys = random_start(2, 300, &s);
+  OWNED jam_system *sys = random_start(2, 300, &s);
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   print_message("protocol: %d reports, last %.3f\n", s.reports, s.last);
   if (s.reports > 10) assert_true(s.last > 0.8);
-  jam_destroy(sys);
 }
 
 CASE(a_crunch_knows_its_gap) {
-  int kind;
-  for (kind = 0; kind < 3; ++kind) {
+  for (int kind = 0; kind < 3; ++kind) {
     seen s;
-    jam_system *sys = random_start(3, kind == 1 ? 60 : 200, &s);
+    OWNED jam_system *sys = random_start(3, kind == 1 ? 60 : 200, &s);
     DEFAULTS(crunch, c);
     if (kind == 1) c.method = JAM_CRUNCH_SEQUENTIAL_LP;
     if (kind == 2) c.strain = JAM_STRAIN_FREE;
@@ -77,6 +73,5 @@ CASE(a_crunch_knows_its_gap) {
                   s.last, s.times);
     /* The verdict is reported; sequential LPs end before the tolerance of the gain where contacts close. */
     assert_true(s.known > 0 && s.last > (kind == 1 ? 0.3 : 0.8));
-    jam_destroy(sys);
   }
 }

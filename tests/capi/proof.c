@@ -2,16 +2,15 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "systems.h"
+#include "steps.h"
 
 enum { n = 64 };
 static double sizes[n];
 
 static jam_system *jammed(void) {
-  int i;
   DEFAULTS(create, o);
   o.n = n, o.dim = 2, o.seed = 1, o.packing_fraction = 0.3;
-  for (i = 0; i < n; ++i) sizes[i] = i % 2 ? 1.4 : 1.0;
+  for (int i = 0; i < n; ++i) sizes[i] = i % 2 ? 1.4 : 1.0;
   jam_system *sys = created_from(&o, NULL, 0, sizes, n);
   assert_int_equal(jam_compress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
@@ -23,9 +22,7 @@ CASE(bad_arguments_are_refused) {
   jam_proof_report r = {.struct_size = sizeof r};
   double low[2 * n], ratio[n];
   size_t needed = 0;
-  DEFAULTS(create, o);
-  o.n = 20;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = random_spheres(3, 20, 0.0, 1);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &r), JAM_E_STATE);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 60);
@@ -50,18 +47,15 @@ CASE(bad_arguments_are_refused) {
   assert_int_equal(jam_write_proof(sys, "/no/such/folder/x", JAM_RIGIDITY_COLLECTIVE, NULL, 0), JAM_E_IO);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
   assert_int_equal(jam_refined_positions(sys, NULL, 0, NULL, 0, low, 2 * n - 1, &needed), JAM_E_BUFFER);
-  jam_destroy(sys);
 }
 
 /* The exact ratio 1.4 of the user is no double, so that the proof speaks of the double nearest to it; centres move by
    less than the radius that the diameters after the crunch would need. */
 CASE(a_packing_of_two_sizes_is_proved) {
-  jam_system *sys = jammed(), *copy;
+  OWNED jam_system *sys = jammed(), *copy = NULL;
   jam_proof_report r = {.struct_size = sizeof r}, plain = {.struct_size = sizeof plain};
-  const double *x, *before;
   double high[2 * n], low[2 * n], kept[2 * n];
-  int i;
-  before = view_of(sys, JAM_VIEW_POSITIONS);
+  const double *before = view_of(sys, JAM_VIEW_POSITIONS);
   memcpy(kept, before, sizeof kept);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, sizes, n, &r), JAM_OK);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &plain), JAM_OK);
@@ -74,20 +68,18 @@ CASE(a_packing_of_two_sizes_is_proved) {
   assert_true(r.inner == r.radius && r.outer > 1e-10); /* about the exact packing itself nothing moves */
   assert_true(fabs(r.packing_fraction - plain.packing_fraction) < 1e-12);
   assert_int_equal(jam_refined_positions(sys, sizes, n, high, 2 * n, low, 2 * n, NULL), JAM_OK);
-  x = view_of(sys, JAM_VIEW_POSITIONS);
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_memory_equal(x, kept, sizeof kept); /* const: nothing moved */
-  for (i = 0; i < 2 * n; ++i) {
+  for (int i = 0; i < 2 * n; ++i) {
     assert_true(fabs(high[i] - x[i]) < 1e-12);
     assert_true(fabs(low[i]) <= 1.2e-16 * fmax(fabs(high[i]), 1e-3));
   }
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
-  jam_destroy(sys);
-  jam_destroy(copy);
 }
 
 /* Crunch and check take the option, and their reports agree with jam_prove. */
 CASE(crunch_and_check_prove_when_asked) {
-  jam_system *sys = jammed();
+  OWNED jam_system *sys = jammed();
   jam_proof_report proof = {.struct_size = sizeof proof};
   jam_crunch_report crunched = {.struct_size = sizeof crunched};
   jam_check_report checked = {.struct_size = sizeof checked};
@@ -109,7 +101,6 @@ CASE(crunch_and_check_prove_when_asked) {
   assert_int_equal(checked.theorem, JAM_THEOREM_EXACT);
   assert_true(checked.proof_radius < 1e-28);
   assert_non_null(strstr(jam_check_text(&checked), "proved, radius"));
-  jam_destroy(sys);
 }
 
 CASE(the_text_of_a_proof_is_short) {
@@ -129,9 +120,8 @@ CASE(shifted_pairs_are_refused_by_name) {
   jam_crunch_report r = {.struct_size = sizeof r};
   DEFAULTS(create, o);
   o.n = 40, o.model = JAM_MODEL_MK, o.packing_fraction = 0.2;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = created(&o);
   assert_true(jam_crunch(sys, NULL, &r) >= 0);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL), JAM_E_UNSUPPORTED);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_STRICT, NULL, 0, NULL), JAM_E_UNSUPPORTED);
-  jam_destroy(sys);
 }

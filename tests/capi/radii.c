@@ -11,21 +11,20 @@ static jam_system *square(int64_t n, int64_t seed) {
 CASE(known_sums) {
   const double sums[2] = {0.5, 2.0 - sqrt(2.0)};
   for (int n = 1; n <= 2; ++n) {
-    jam_system *sys = square(n, n);
+    OWNED jam_system *sys = square(n, n);
     SIZED(jam_radii_report, r);
     assert_int_equal(jam_maximise_radii(sys, NULL, NULL, 0, &r), JAM_OK);
     assert_true(r.maximum && fabs(r.value - sums[n - 1]) < 1e-15 && r.rattlers == 0);
     size_t contacts = 0;
     assert_int_equal(jam_forces(sys, NULL, 0, &contacts), JAM_OK);
     assert_true(contacts == (size_t)r.contacts);
-    jam_destroy(sys);
   }
 }
 
 /* A weight counts a radius more: the sphere that has most of it becomes the largest. */
 CASE(weights_decide) {
   const double weights[2] = {1.0, 3.0};
-  jam_system *sys = square(2, 1);
+  OWNED jam_system *sys = square(2, 1);
   SIZED(jam_radii_report, r);
   assert_int_equal(jam_maximise_radii(sys, NULL, weights, 2, &r), JAM_OK);
   const double *const sigma = view_of(sys, JAM_VIEW_DIAMETERS);
@@ -33,7 +32,6 @@ CASE(weights_decide) {
   /* the large disk fills the square, the other its corner: (1/2 - r) sqrt(2) = 1/2 + r */
   const double corner = 0.5 * (sqrt(2.0) - 1.0) / (sqrt(2.0) + 1.0);
   assert_true(fabs(r.value - (1.5 + corner)) < 1e-14);
-  jam_destroy(sys);
 }
 
 /* Two moments fix the ratio of two disks, whose radii add up to 2 - sqrt(2) in a square. */
@@ -42,7 +40,7 @@ CASE(moments_grow_by_one_factor) {
   double before[2], square;
   DEFAULTS(create, c);
   c.n = 2, c.dim = 2, c.seed = 1, c.walls = 3;
-  jam_system *sys = created_from(&c, NULL, 0, ratio, 2);
+  OWNED jam_system *sys = created_from(&c, NULL, 0, ratio, 2);
   const double *const sigma = view_of(sys, JAM_VIEW_DIAMETERS);
   before[0] = sigma[0], before[1] = sigma[1];
   DEFAULTS(radii, o);
@@ -56,7 +54,6 @@ CASE(moments_grow_by_one_factor) {
   /* forces on sphere i: lambda_1 + 2 lambda_2 R_i, and sum_q q lambda_q M_q = lambda */
   square = 0.25 * (sigma[0] * sigma[0] + sigma[1] * sigma[1]);
   assert_true(fabs(0.5 * r.multiplier_1 * (sigma[0] + sigma[1]) + 2.0 * r.multiplier_2 * square - r.value) < 1e-12);
-  jam_destroy(sys);
 }
 
 /* One disk in a cell that deforms: the triangular lattice of volume 1, strictly jammed by its own images. */
@@ -66,7 +63,7 @@ CASE(a_cell_deforms_at_fixed_volume) {
   DEFAULTS(radii, o);
   SIZED(jam_radii_report, r);
   SIZED(jam_crunch_report, verdict);
-  jam_system *sys = random_spheres(2, 1, 0.0, 1);
+  OWNED jam_system *sys = random_spheres(2, 1, 0.0, 1);
   assert_int_equal(o.strain, JAM_STRAIN_NONE);
   o.strain = JAM_STRAIN_FREE;
   assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_OK);
@@ -78,11 +75,10 @@ CASE(a_cell_deforms_at_fixed_volume) {
   jam_destroy(sys);
   sys = square(3, 1);
   assert_int_equal(jam_maximise_radii(sys, &o, NULL, 0, &r), JAM_E_UNSUPPORTED);
-  jam_destroy(sys);
 }
 
 CASE(stops_leave_a_valid_packing) {
-  jam_system *sys = square(20, 1);
+  OWNED jam_system *sys = square(20, 1);
   DEFAULTS(radii, o);
   SIZED(jam_radii_report, r);
   o.max_steps = 2;
@@ -94,5 +90,4 @@ CASE(stops_leave_a_valid_packing) {
   assert_int_equal(jam_set_progress(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_maximise_radii(sys, NULL, NULL, 0, &r), JAM_OK);
   assert_true(r.maximum == 1);
-  jam_destroy(sys);
 }

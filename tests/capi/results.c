@@ -66,21 +66,17 @@ static void same_results(const jam_system *a, const jam_system *b, int crunched)
 
 /* A copy and a checkpoint of sys have its results. */
 static void kept(jam_system *sys, int crunched) {
-  jam_system *copy = copy_of(sys), *again = from_checkpoint(sys);
+  OWNED jam_system *copy = copy_of(sys), *again = from_checkpoint(sys);
   same_results(sys, copy, crunched);
   same_results(sys, again, crunched);
-  jam_destroy(again);
-  jam_destroy(copy);
 }
 
 CASE(a_crunch_is_kept) {
-  int32_t dim, strain;
-  for (dim = 2; dim <= 4; ++dim)
-    for (strain = JAM_STRAIN_NONE; strain <= JAM_STRAIN_FREE; strain += JAM_STRAIN_FREE) {
-      jam_system *sys = start(dim, 40, dim == 4 ? 0.1 : 0.3, JAM_OVERLAP_REFUSE), *other;
+  for (int32_t dim = 2; dim <= 4; ++dim)
+    for (int32_t strain = JAM_STRAIN_NONE; strain <= JAM_STRAIN_FREE; strain += JAM_STRAIN_FREE) {
+      OWNED jam_system *sys = start(dim, 40, dim == 4 ? 0.1 : 0.3, JAM_OVERLAP_REFUSE), *other = NULL;
       crunch(sys, strain, 0, 0.0, 8);
       kept(sys, 1);
-      jam_destroy(sys);
       for (int64_t lps = 1; lps < 6; ++lps) { /* one that was stopped */
         other = start(dim, 40, dim == 4 ? 0.1 : 0.3, JAM_OVERLAP_REFUSE);
         crunch(other, strain, lps, 0.0, 3);
@@ -90,12 +86,11 @@ CASE(a_crunch_is_kept) {
       other = start(dim, 60, dim == 4 ? 0.1 : 0.3, JAM_OVERLAP_REFUSE);
       crunch(other, JAM_STRAIN_NONE, 0, 1e-3, 0);
       kept(other, 1);
-      jam_destroy(other);
     }
 }
 
 CASE(networks_of_other_calls_are_kept) {
-  jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW), *again;
+  OWNED jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW), *again = NULL;
   assert_true(jam_relax(sys, NULL, NULL) >= 0);
   kept(sys, 0); /* with stiffnesses */
   DEFAULTS(decompress, o);
@@ -104,7 +99,6 @@ CASE(networks_of_other_calls_are_kept) {
   kept(sys, 0);
   again = from_checkpoint(sys);
   same_array(minima, sys, again);
-  jam_destroy(again);
   jam_destroy(sys);
   sys = start(3, 50, 0.3, JAM_OVERLAP_REFUSE); /* a fluid: contacts of a wide tolerance carry no force */
   DEFAULTS(geometry, g);
@@ -114,7 +108,6 @@ CASE(networks_of_other_calls_are_kept) {
   crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0);
   assert_true(jam_contacts_from_geometry(sys, NULL, NULL) >= 0);
   kept(sys, 1); /* the history is that of the crunch still */
-  jam_destroy(sys);
 }
 
 static int32_t stop(const jam_progress *p, void *user) { return p->steps > 2 || p->collisions > 10 || user; }
@@ -161,24 +154,20 @@ static void each_move(int move, jam_system *sys) {
 }
 
 CASE(every_move_clears_all) {
-  int move;
-  jam_system *jammed = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
+  OWNED jam_system *jammed = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
   crunch(jammed, JAM_STRAIN_NONE, 0, 0.0, 0);
   assert_int_equal(jam_set_velocities(jammed, view_of(jammed, JAM_VIEW_POSITIONS), 100), JAM_OK); /* any will do */
   assert_int_equal(knows(jammed), 3); /* velocities move nothing */
-  for (move = 0; move < 6; ++move) {
-    jam_system *sys = copy_of(jammed);
+  for (int move = 0; move < 6; ++move) {
+    OWNED jam_system *sys = copy_of(jammed);
     each_move(move, sys);
     assert_int_equal(knows(sys), 0);
-    jam_destroy(sys);
   }
-  jam_destroy(jammed);
 }
 
 /* A pressure that dynamics has measured is one of its own packing. */
 CASE(pressures_are_of_this_packing) {
-  jam_system *grown = start(2, 50, 0.4, JAM_OVERLAP_REFUSE), *again;
-  int move;
+  OWNED jam_system *grown = start(2, 50, 0.4, JAM_OVERLAP_REFUSE), *again = NULL;
   assert_true(isnan(info_of(grown).pressure));
   run(grown, 20);
   assert_true(info_of(grown).pressure > 1.0);
@@ -186,28 +175,24 @@ CASE(pressures_are_of_this_packing) {
   assert_true(info_of(again).pressure == info_of(grown).pressure);
   DEFAULTS(monte_carlo, mc);
   mc.sweeps = 2;
-  for (move = 0; move < 4; ++move) {
-    jam_system *sys = copy_of(grown);
+  for (int move = 0; move < 4; ++move) {
+    OWNED jam_system *sys = copy_of(grown);
     assert_true(info_of(sys).pressure == info_of(grown).pressure);
     if (move == 0) assert_true(crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0) >= 0);
     if (move == 1) assert_int_equal(jam_monte_carlo(sys, &mc, NULL), JAM_OK);
     if (move == 2) assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
     if (move == 3) assert_int_equal(jam_set_positions(sys, view_of(sys, JAM_VIEW_POSITIONS), 100), JAM_OK);
     assert_true(isnan(info_of(sys).pressure));
-    jam_destroy(sys);
   }
-  jam_destroy(again);
-  jam_destroy(grown);
 }
 
 /* The history of a decompression goes with the packing that it led to. */
 CASE(soft_history_is_cleared) {
-  jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW);
+  OWNED jam_system *sys = start(2, 50, 0.9, JAM_OVERLAP_ALLOW);
   assert_true(jam_decompress(sys, NULL, NULL) >= 0);
   assert_true(knows(sys) >= 3);
   assert_int_equal(jam_scale_diameters(sys, 0.9), JAM_OK);
   assert_int_equal(knows(sys), 0);
-  jam_destroy(sys);
 }
 
 static int32_t look(const jam_progress *p, void *user) {
@@ -217,7 +202,7 @@ static int32_t look(const jam_progress *p, void *user) {
 }
 
 CASE(snapshots_have_no_old_results) {
-  jam_system *sys = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
+  OWNED jam_system *sys = start(2, 50, 0.4, JAM_OVERLAP_REFUSE);
   crunch(sys, JAM_STRAIN_NONE, 0, 0.0, 0);
   DEFAULTS(observe, o);
   o.snapshot_every = 1.0;
@@ -226,7 +211,6 @@ CASE(snapshots_have_no_old_results) {
   DEFAULTS(run, run);
   run.collisions_per_particle = 10.0;
   assert_int_equal(jam_run(sys, &run, NULL), JAM_NOT_CONVERGED); /* stalled: no time passes at contact */
-  jam_destroy(sys);
 }
 
 static jam_status series(const jam_system *s, double *out, size_t len, size_t *needed) {
@@ -235,7 +219,7 @@ static jam_status series(const jam_system *s, double *out, size_t len, size_t *n
 
 /* A copy has what was observed, and observes on. */
 CASE(observed_data_are_copied) {
-  jam_system *sys = start(3, 60, 0.3, JAM_OVERLAP_REFUSE), *copy = NULL;
+  OWNED jam_system *sys = start(3, 60, 0.3, JAM_OVERLAP_REFUSE), *copy = NULL;
   DEFAULTS(observe, o);
   o.collisions = 1, o.gap_bins = 10, o.r_bins = 10;
   assert_int_equal(jam_observe(sys, &o), JAM_OK);
@@ -245,14 +229,12 @@ CASE(observed_data_are_copied) {
   assert_int_equal(jam_run(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_run(copy, NULL, NULL), JAM_OK);
   same_array(series, sys, copy);
-  jam_destroy(copy);
-  jam_destroy(sys);
 }
 
 /* What reading assumed is known of a copy and of a checkpoint, too. */
 CASE(notes_are_kept) {
   const double x[4] = {0.5, 0.5, 0.5000001, 0.5}, sigma = 2e-7;
-  jam_system *sys = NULL, *copy, *again;
+  OWNED jam_system *sys = NULL, *copy = NULL, *again = NULL;
   DEFAULTS(create, o);
   o.dim = 2, o.n = 2, o.overlap = JAM_OVERLAP_SHRINK;
   assert_int_equal(create_from(&o, x, 4, &sigma, 1, &sys), JAM_OK);
@@ -266,9 +248,6 @@ CASE(notes_are_kept) {
   copy = copy_of(sys), again = from_checkpoint(sys);
   assert_string_equal(jam_notes(copy), jam_notes(sys));
   assert_string_equal(jam_notes(again), jam_notes(sys));
-  jam_destroy(again);
-  jam_destroy(copy);
-  jam_destroy(sys);
 }
 
 FIXTURE(make_scratch, remove_scratch)

@@ -5,9 +5,8 @@
 #include "verdicts.h"
 
 CASE(crunched) {
-  jam_system *sys = random_spheres(3, 64, 0.0, 3);
+  OWNED jam_system *sys = random_spheres(3, 64, 0.0, 3);
   SIZED(jam_crunch_report, report);
-  jam_rigidity_report r;
   double out[3 * 64];
   size_t needed = 0;
   assert_int_equal(jam_crunch(sys, NULL, &report), JAM_OK);
@@ -17,7 +16,7 @@ CASE(crunched) {
   assert_int_equal(report.strictly_jammed, JAM_VERDICT_UNTESTED);
   assert_int_equal(report.strict_contacts_needed, 3 * (report.stable - 1) + 6);
   assert_true(report.rigidity_margin > 1e-8);
-  r = rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK);
+  jam_rigidity_report r = rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK);
   assert_int_equal(r.stable, report.stable);
   assert_int_equal(r.contacts_needed, report.isostatic_contacts);
   assert_true(r.force_residual < 1e-10);
@@ -36,13 +35,12 @@ CASE(crunched) {
   assert_non_null(strstr(jam_last_error(), "; jam_flex gives a motion, jam_crunch makes a jammed packing"));
   rigidity_test(sys, JAM_RIGIDITY_STRICT, JAM_NOT_JAMMED);
   assert_int_equal(strncmp(jam_last_error(), "not strictly jammed: no pair touches; ", 38), 0);
-  jam_destroy(sys);
 }
 
 /* Following the flex of a square lattice, no pair comes closer than touching. */
 CASE(flex_of_a_lattice) {
   for (int32_t kind = JAM_RIGIDITY_COLLECTIVE; kind <= JAM_RIGIDITY_STRICT; ++kind) {
-    jam_system *sys = square_lattice(6);
+    OWNED jam_system *sys = square_lattice(6);
     const jam_rigidity_report r = rigidity_test(sys, kind, JAM_NOT_JAMMED);
     double out[72], strain[4], moved[72], largest = 0.0, trace = 0.0;
     const double *x = NULL;
@@ -64,12 +62,11 @@ CASE(flex_of_a_lattice) {
       for (size_t k = 0; k < n; ++k) moved[k] = x[k] + 0.02 * out[k];
       assert_int_equal(jam_set_positions(sys, moved, n), JAM_OK); /* refused if a pair overlapped */
     }
-    jam_destroy(sys);
   }
 }
 
 CASE(bad_calls) {
-  jam_system *sys = square_lattice(3);
+  OWNED jam_system *sys = square_lattice(3);
   double out[18];
   size_t needed = 0;
   assert_int_equal(jam_rigidity(sys, 2, NULL), JAM_E_ARGUMENT);
@@ -77,7 +74,6 @@ CASE(bad_calls) {
   assert_int_equal(jam_flex(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
   assert_int_equal(jam_cancel(sys), JAM_OK);
   assert_int_equal(jam_rigidity(sys, JAM_RIGIDITY_COLLECTIVE, NULL), JAM_CANCELLED);
-  jam_destroy(sys);
 }
 
 /* Columns of two disks that hold each other over the period: each is a part with one state of self-stress. Its two
@@ -90,7 +86,7 @@ CASE(flexes_beyond_the_limit) {
     const double cell[4] = {3.0 * m, 0.0, 0.0, 2.0}, diameter = 1.0;
     double *x = malloc(4 * (size_t)m * sizeof *x);
     jam_start start = {.struct_size = sizeof start};
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     assert_non_null(x);
     for (int32_t k = 0; k < 2 * m; ++k) x[2 * k] = 3.0 * (k / 2) + 0.1, x[2 * k + 1] = 0.35 + k % 2;
     DEFAULTS(create, o);
@@ -105,7 +101,6 @@ CASE(flexes_beyond_the_limit) {
       assert_int_equal(r.flexes, 3 * m - 2);
     else
       assert_true(r.flexes >= 512 && strstr(jam_last_error(), "at least "));
-    jam_destroy(sys);
     free(x);
   }
 }
@@ -119,7 +114,7 @@ CASE(slides_beyond_the_limit) {
   for (int closed = 0; closed < 2; ++closed) {
     jam_start start = {.struct_size = sizeof start};
     jam_check_report c = {.struct_size = sizeof c};
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     for (int k = 0; k < side * side; ++k)
       x[3 * k] = 1.5 * (k % side) + 0.6, x[3 * k + 1] = 1.5 * (k / side) + 0.6, x[3 * k + 2] = 0.5;
     DEFAULTS(create, o);
@@ -133,6 +128,5 @@ CASE(slides_beyond_the_limit) {
     assert_null(strstr(jam_last_error(), "at least"));
     assert_int_equal(jam_check_packing(sys, NULL, &c), JAM_NOT_JAMMED);
     assert_int_equal(c.reason, JAM_CHECK_SLIDE);
-    jam_destroy(sys);
   }
 }

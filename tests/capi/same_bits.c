@@ -16,7 +16,7 @@ static uint64_t hash_of(uint64_t hash, const void *data, size_t size) {
 
 /* Large enough that Clp would factorise dense parts by LAPACK, if libjam did not turn that off. */
 static void clp(int dim, int n, double fraction) {
-  jam_system *sys = random_spheres(dim, n, fraction, 3);
+  OWNED jam_system *sys = random_spheres(dim, n, fraction, 3);
   DEFAULTS(crunch, o);
   o.lp_solver = JAM_LP_CLP, o.method = JAM_CRUNCH_SEQUENTIAL_LP, o.max_lps = 1;
   const jam_status status = jam_crunch(sys, &o, NULL);
@@ -26,7 +26,6 @@ static void clp(int dim, int n, double fraction) {
   }
   const uint64_t hash = hash_of(14695981039346656037u, view_of(sys, JAM_VIEW_POSITIONS), sizeof(double) * dim * n);
   printf("d=%d %016" PRIx64 "\n", dim, hash_of(hash, view_of(sys, JAM_VIEW_DIAMETERS), sizeof(double) * n));
-  jam_destroy(sys);
 }
 
 static const char *me;

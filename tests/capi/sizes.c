@@ -2,7 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include "systems.h"
+#include "steps.h"
 
 static jam_diameters_options options(int32_t law) {
   DEFAULTS(diameters, o);
@@ -28,8 +28,7 @@ static void refused(const jam_diameters_options *o, const double *curve, size_t 
 
 static double volume(const double *s, size_t n, int dim) {
   double sum = 0;
-  size_t k;
-  for (k = n; k--;) sum += (dim == 2 ? acos(-1.0) / 4 : acos(-1.0) / 6) * pow(s[k], dim);
+  for (size_t k = n; k--;) sum += (dim == 2 ? acos(-1.0) / 4 : acos(-1.0) / 6) * pow(s[k], dim);
   return sum;
 }
 
@@ -38,19 +37,18 @@ static const double curve[] = {0.5, 0, 1, 10, 2, 50, 4, 100};
 /* Sums of volume at the ends of each sphere's share of the number are those of the curve. */
 CASE(passing_curve_of_few_spheres_is_the_one_asked_for) {
   jam_diameters_options o = options(JAM_SIZES_SIEVE);
-  size_t n, k;
-  double *s, sum = 0, all;
+  size_t n;
+  double sum = 0;
   o.n = 200;
-  s = draw(&o, curve, 8, &n);
+  double *s = draw(&o, curve, 8, &n);
   assert_int_equal(n, 200);
-  all = volume(s, n, 3);
-  for (k = 0; k + 1 < n; ++k) {
+  double all = volume(s, n, 3);
+  for (size_t k = 0; k + 1 < n; ++k) {
     const double here = sqrt(s[k] * s[k + 1]); /* between both */
     double asked = 0;
-    size_t row;
     sum += volume(s + k, 1, 3);
     assert_true(s[k] <= s[k + 1] * (1 + 1e-12) && s[k] >= 0.5 && s[k] <= 4);
-    for (row = 0; row < 3; ++row) {
+    for (size_t row = 0; row < 3; ++row) {
       const double low = curve[2 * row], high = curve[2 * row + 2];
       const double part = here <= low ? 0 : here >= high ? 1 : log(here / low) / log(high / low);
       asked += part * (curve[2 * row + 3] - curve[2 * row + 1]) / 100;
@@ -64,27 +62,25 @@ CASE(passing_curve_of_few_spheres_is_the_one_asked_for) {
 CASE(density_is_exact_and_n_follows) {
   static const int32_t laws[] = {JAM_SIZES_EQUAL, JAM_SIZES_NORMAL, JAM_SIZES_LOGNORMAL, JAM_SIZES_UNIFORM,
                                  JAM_SIZES_SIEVE};
-  size_t law;
-  int dim, way;
-  for (law = 0; law < sizeof laws / sizeof *laws; ++law)
-    for (dim = 2; dim <= 3; ++dim)
-      for (way = 0; way < 2; ++way) {
+  for (size_t law = 0; law < sizeof laws / sizeof *laws; ++law)
+    for (int dim = 2; dim <= 3; ++dim)
+      for (int way = 0; way < 2; ++way) {
         jam_diameters_options o = options(laws[law]);
         const int sieve = o.law == JAM_SIZES_SIEVE;
-        size_t n, k;
-        double *s, *again, least = INFINITY, most = 0;
+        size_t n;
+        double least = INFINITY, most = 0;
         o.dim = dim;
         o.draw = way;
         if (o.law == JAM_SIZES_NORMAL || o.law == JAM_SIZES_LOGNORMAL) o.deviation = 0.2, o.high = 1.8;
         if (o.law == JAM_SIZES_UNIFORM) o.low = 0.7, o.high = 1.3;
         o.cell_volume = sieve ? 3000 : 300;
         o.packing_fraction = 0.6;
-        s = draw(&o, sieve ? curve : NULL, sieve ? 8 : 0, &n);
+        double *s = draw(&o, sieve ? curve : NULL, sieve ? 8 : 0, &n);
         /* whole spheres of one size miss it by half a sphere at most */
         if (!(fabs(volume(s, n, dim) / o.cell_volume - 0.6) <
               (o.law == JAM_SIZES_EQUAL ? 0.5 * volume(s, 1, dim) / o.cell_volume * (1 + 1e-12) : 1e-12)))
           fail_msg("law %d, d = %d: %g", (int)o.law, dim, volume(s, n, dim) / o.cell_volume - 0.6);
-        for (k = 0; k < n; ++k) least = fmin(least, s[k]), most = fmax(most, s[k]);
+        for (size_t k = 0; k < n; ++k) least = fmin(least, s[k]), most = fmax(most, s[k]);
         if (o.law == JAM_SIZES_EQUAL) {
           assert_true(least == 1 && most == 1);
         } else if (sieve) {
@@ -92,7 +88,7 @@ CASE(density_is_exact_and_n_follows) {
         } else {
           assert_true(most <= 1.8);
         }
-        again = draw(&o, sieve ? curve : NULL, sieve ? 8 : 0, &n);
+        double *again = draw(&o, sieve ? curve : NULL, sieve ? 8 : 0, &n);
         assert_memory_equal(s, again, n * sizeof *s);
         free(s);
         free(again);
@@ -105,11 +101,10 @@ CASE(few_sizes_stay_whole) {
   double fraction;
   for (fraction = 0.3; fraction < 0.6; fraction += 0.037) {
     jam_diameters_options o = options(JAM_SIZES_LIST);
-    size_t n, k;
-    double *s;
+    size_t n;
     o.cell_volume = 2000, o.packing_fraction = fraction;
-    s = draw(&o, rows, 6, &n);
-    for (k = 0; k < n; ++k) assert_true(s[k] == 1.0 || s[k] == 1.7 || s[k] == 2.5);
+    double *s = draw(&o, rows, 6, &n);
+    for (size_t k = 0; k < n; ++k) assert_true(s[k] == 1.0 || s[k] == 1.7 || s[k] == 2.5);
     assert_true(fabs(volume(s, n, 3) - fraction * 2000) <= volume(s + n - 1, 1, 3));
     free(s);
   }
@@ -131,12 +126,11 @@ CASE(mean_of_equal_diameters_is_exact) {
 CASE(seeds_reproduce_and_differ) {
   jam_diameters_options o = options(JAM_SIZES_LOGNORMAL);
   size_t n;
-  double *a, *b, *c;
   o.deviation = 0.3, o.n = 50, o.draw = JAM_DRAW_RANDOM;
-  a = draw(&o, NULL, 0, &n);
-  b = draw(&o, NULL, 0, &n);
+  double *a = draw(&o, NULL, 0, &n);
+  double *b = draw(&o, NULL, 0, &n);
   o.seed = 2;
-  c = draw(&o, NULL, 0, &n);
+  double *c = draw(&o, NULL, 0, &n);
   assert_memory_equal(a, b, n * sizeof *a);
   assert_true(a[0] != c[0]);
   free(a), free(b), free(c);
@@ -209,14 +203,14 @@ CASE(laws_are_read_from_text) {
                                     "sieve:none.csv", "equal:share=mass",  "equal:,",       NULL};
   jam_diameters_options o = options(JAM_SIZES_EQUAL);
   double rows[4];
-  size_t needed, k;
+  size_t needed;
   assert_int_equal(jam_parse_diameters("lognormal: deviation=0.3, share=volume,draw=random", &o, NULL, 0, &needed),
                    JAM_OK);
   assert_true(o.law == JAM_SIZES_LOGNORMAL && o.deviation == 0.3 && o.share == JAM_SHARE_VOLUME);
   assert_true(o.draw == JAM_DRAW_RANDOM && needed == 0);
   assert_int_equal(jam_parse_diameters("list:1=0.75,1.4=2.5e-1", &o, rows, 4, &needed), JAM_OK);
   assert_true(o.law == JAM_SIZES_LIST && needed == 4 && rows[0] == 1 && rows[3] == 0.25);
-  for (k = 0; bad[k]; ++k)
+  for (size_t k = 0; bad[k]; ++k)
     if (jam_parse_diameters(bad[k], &o, NULL, 0, &needed) >= 0) fail_msg("%s was taken", bad[k]);
 }
 
@@ -224,11 +218,10 @@ CASE(laws_are_read_from_text) {
 CASE(curves_may_begin_at_either_end) {
   static const double turned[] = {4, 100, 2, 50, 1, 10, 0.5, 0}, mixed[] = {4, 100, 1, 10, 2, 50, 0.5, 0};
   jam_diameters_options o = options(JAM_SIZES_SIEVE);
-  double *a, *b;
   size_t n, m;
   o.n = 500;
-  a = draw(&o, curve, 8, &n);
-  b = draw(&o, turned, 8, &m);
+  double *a = draw(&o, curve, 8, &n);
+  double *b = draw(&o, turned, 8, &m);
   assert_int_equal(n, m);
   assert_memory_equal(a, b, n * sizeof *a);
   refused(&o, mixed, 8, JAM_E_ARGUMENT, "row 1 (1, 10): the sieve curve falls");
@@ -264,15 +257,12 @@ CASE(curves_are_read_from_files) {
 }
 
 CASE(fluids_do_not_begin_to_grow_beyond_their_reach) {
-  DEFAULTS(create, c);
   DEFAULTS(compress, o);
-  c.n = 1000;
   SIZED(jam_md_report, r);
-  jam_system *sys = created(&c);
+  OWNED jam_system *sys = random_spheres(3, 1000, 0.0, 1);
   o.packing_fraction = 0.70;
   SAYS(jam_compress(sys, &o, &r), JAM_E_UNPLACEABLE, "Farr and Groot");
   o.packing_fraction = 0.45;
   assert_int_equal(jam_compress(sys, &o, &r), JAM_OK);
   assert_true(fabs(r.packing_fraction - 0.45) < 1e-12);
-  jam_destroy(sys);
 }

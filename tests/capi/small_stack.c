@@ -1,11 +1,7 @@
 /* Every kind of call runs on a thread with the stack that the header promises to suffice. */
-#include <jam/jam.h>
 #include <pthread.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <unistd.h>
 
-#include "test.h"
+#include "steps.h"
 
 #define STACK (256 * 1024) /* as the header promises */
 
@@ -21,10 +17,7 @@ static void write_and_read(jam_system *sys, int dim) {
   check(jam_read(name, NULL, NULL, NULL, &other), "jam_read", dim);
   jam_destroy(other);
   remove(name);
-  snprintf(name, sizeof name, "small_stack_%d", (int)getpid());
-  check(jam_write_checkpoint(sys, name), "jam_write_checkpoint", dim);
-  check(jam_read_checkpoint(name, NULL, NULL, &other), "jam_read_checkpoint", dim);
-  jam_destroy(other);
+  jam_destroy(from_checkpoint(sys));
   check(jam_write_page(sys, name, "t", 0, "", NULL, 0), "jam_write_page", dim);
   remove(name);
 }

@@ -12,7 +12,7 @@ static void expect_overlap(jam_status status) {
 }
 
 CASE(hard_verbs_refuse_overlaps) {
-  jam_system *sys = soft_start(60, 0.7, 1);
+  OWNED jam_system *sys = soft_start(60, 0.7, 1);
   jam_estimate_report e = {.struct_size = sizeof e};
   expect_overlap(jam_run(sys, NULL, NULL));
   expect_overlap(jam_compress(sys, NULL, NULL));
@@ -24,23 +24,20 @@ CASE(hard_verbs_refuse_overlaps) {
   /* What the text advises mends it. */
   double factor = 0.0;
   assert_int_equal(sscanf(strstr(jam_last_error(), "(sys, ") + 6, "%lf", &factor), 1);
-  jam_system *copy = copy_of(sys);
+  OWNED jam_system *copy = copy_of(sys);
   assert_int_equal(jam_scale_diameters(copy, factor), JAM_OK);
   run(copy, 1.0);
-  jam_destroy(copy);
   /* Setters take overlaps here, and nowhere else. */
   double closer[180];
   for (size_t k = 0; k < 180; ++k) closer[k] = 0.5 * view_of(sys, JAM_VIEW_POSITIONS)[k];
   assert_int_equal(jam_set_positions(sys, closer, 180), JAM_OK);
   assert_int_equal(jam_scale_diameters(sys, 1.01), JAM_OK);
   assert_int_equal(jam_scale_diameters(sys, 1e3), JAM_E_OVERLAP); /* wider than the box */
-  jam_system *hard = NULL;
+  OWNED jam_system *hard = NULL;
   assert_int_equal(jam_create(NULL, NULL, &hard), JAM_E_ARGUMENT);
   hard = random_spheres(3, 60, 0.0, 1);
   SAYS(jam_relax(hard, NULL, NULL), JAM_E_STATE, "JAM_OVERLAP_ALLOW");
   assert_int_equal(jam_decompress(hard, NULL, NULL), JAM_E_STATE);
-  jam_destroy(hard);
-  jam_destroy(sys);
 }
 
 /* Energy after a strain x times e, relaxed. */
@@ -48,10 +45,9 @@ static double strained_energy(const jam_system *sys, const double *e, double x) 
   double strain[9];
   jam_relax_report r = {.struct_size = sizeof r};
   for (int k = 0; k < 9; ++k) strain[k] = x * e[k];
-  jam_system *copy = copy_of(sys);
+  OWNED jam_system *copy = copy_of(sys);
   assert_int_equal(jam_strain(copy, strain, 9), JAM_OK);
   assert_int_equal(jam_relax(copy, NULL, &r), JAM_OK);
-  jam_destroy(copy);
   return r.energy;
 }
 
@@ -62,7 +58,7 @@ CASE(elastic_tensor) {
       {0.3, -0.8, 0.5, 0.1, 0.6, -0.4, 0.9, 0.2, -0.7},
       {0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 0.0}, /* to first order a rotation */
       {-0.2, 0.4, 0.7, 0.9, -0.5, 0.3, -0.6, 0.8, 0.1}};
-  jam_system *sys = soft_start(80, 0.75, 3);
+  OWNED jam_system *sys = soft_start(80, 0.75, 3);
   jam_relax_report r = {.struct_size = sizeof r};
   jam_moduli_report m = {.struct_size = sizeof m};
   double affine[81], relaxed[81], bare[81], shear = 0.0;
@@ -102,7 +98,6 @@ CASE(elastic_tensor) {
   for (int ab = 0; ab < 9; ++ab)
     for (int cd = 0; cd < 9; ++cd)
       assert_true(fabs(bare[9 * ab + cd] - bare[9 * (3 * (ab % 3) + ab / 3) + cd]) < 1e-10);
-  jam_destroy(sys);
 }
 
 static int32_t stop_soon(const jam_progress *p, void *user) {
@@ -111,7 +106,7 @@ static int32_t stop_soon(const jam_progress *p, void *user) {
 }
 
 CASE(down_to_jamming) {
-  jam_system *sys = soft_start(80, 0.72, 5), *copy = NULL;
+  OWNED jam_system *sys = soft_start(80, 0.72, 5), *copy = NULL;
   jam_decompress_report d = {.struct_size = sizeof d};
   jam_crunch_report report = {.struct_size = sizeof report};
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
@@ -136,12 +131,10 @@ CASE(down_to_jamming) {
   assert_int_equal(d.stop_reason, JAM_STOP_CANCELLED);
   assert_int_equal(jam_set_progress(copy, NULL, NULL), JAM_OK);
   assert_int_equal(jam_decompress(copy, NULL, &d), JAM_OK); /* goes on, to another end: it starts from where it was */
-  jam_destroy(copy);
-  jam_destroy(sys);
 }
 
 CASE(unjammed_start) {
-  jam_system *sys = soft_start(60, 0.3, 1);
+  OWNED jam_system *sys = soft_start(60, 0.3, 1);
   jam_decompress_report d = {.struct_size = sizeof d};
   jam_relax_report r = {.struct_size = sizeof r};
   assert_int_equal(jam_decompress(sys, NULL, &d), JAM_NOT_JAMMED);
@@ -149,5 +142,4 @@ CASE(unjammed_start) {
               isnan(d.crunch_fraction));
   assert_int_equal(jam_relax(sys, NULL, &r), JAM_NOT_JAMMED);
   assert_true(r.converged == 1 && r.rattlers == 60 && r.contacts == 0);
-  jam_destroy(sys);
 }

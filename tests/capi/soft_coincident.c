@@ -56,11 +56,10 @@ CASE(two_alone_part) {
         if (kind == 1) x[dim] = 1.0;                /* an image of the other */
         if (kind == 2) x[0] = 0.0, x[dim] = 1e-300; /* its square underflows */
         if (kind == 3) x[0] = 0.0, x[dim] = 1e-170;
-        jam_system *sys = soft(x, 2, dim, 0.2, 1);
+        OWNED jam_system *sys = soft(x, 2, dim, 0.2, 1);
         const jam_relax_report r = relaxed(sys, minimiser, 1e-12);
         assert_true(r.energy < 1e-24 && r.contacts == 0 && r.max_overlap < 1e-12); /* rounding of the positions */
         assert_true(closest(sys, 2, dim, 0.0, NULL) >= 0.2 * (1.0 - 1e-9));
-        jam_destroy(sys);
       }
 }
 
@@ -75,12 +74,11 @@ CASE(dense_starts_part) {
   memcpy(y, x, sizeof x);
   for (int k = 0; k < 3 * 64; ++k) y[k] += 1e-9 * ((k * 37) % 11 - 5);
   for (int32_t minimiser = JAM_MINIMISER_NEWTON; minimiser <= JAM_MINIMISER_LBFGS; ++minimiser) {
-    jam_system *at_once = soft(x, 64, 3, 0.30, 1), *apart = soft(y, 64, 3, 0.30, 1);
+    OWNED jam_system *at_once = soft(x, 64, 3, 0.30, 1), *apart = soft(y, 64, 3, 0.30, 1);
     const jam_relax_report a = relaxed(at_once, minimiser, 1e-9), b = relaxed(apart, minimiser, 1e-9);
     assert_true(fabs(a.energy - b.energy) < 0.25);
     assert_true(closest(at_once, 64, 3, 0.0, NULL) > 0.1);
     assert_true(a.max_overlap < 0.7);
-    jam_destroy(at_once), jam_destroy(apart);
   }
 }
 
@@ -89,7 +87,7 @@ CASE(coincident_pairs_are_counted) {
   double x[3 * 64];
   scatter(x, 3 * 64, 1);
   memcpy(x + 3 * 6, x + 3 * 5, 3 * sizeof *x);
-  jam_system *sys = soft(x, 64, 3, 0.5, 1);
+  OWNED jam_system *sys = soft(x, 64, 3, 0.5, 1);
   jam_relax_report r = {.struct_size = sizeof r};
   DEFAULTS(relax, o);
   o.max_evaluations = 1;
@@ -102,7 +100,6 @@ CASE(coincident_pairs_are_counted) {
   assert_int_equal(r.contacts, pairs);
   assert_int_equal(jam_contacts(sys, NULL, 0, &rows), JAM_OK);
   assert_int_equal(rows, 2 * pairs);
-  jam_destroy(sys);
 }
 
 CASE(seeds_choose_the_direction) {
@@ -110,13 +107,12 @@ CASE(seeds_choose_the_direction) {
   double first[3] = {0};
   for (int64_t seed = 1; seed <= 3; ++seed)
     for (int again = 0; again < 2; ++again) {
-      jam_system *sys = soft(x, 2, 3, 0.2, seed);
+      OWNED jam_system *sys = soft(x, 2, 3, 0.2, seed);
       relaxed(sys, JAM_MINIMISER_NEWTON, 1e-12);
       const double *p = view_of(sys, JAM_VIEW_POSITIONS);
       if (again) assert_memory_equal(first, p, sizeof first);
       if (!again && seed > 1) assert_memory_not_equal(first, p, sizeof first);
       memcpy(first, p, sizeof first);
-      jam_destroy(sys);
     }
 }
 
@@ -126,7 +122,7 @@ CASE(other_calls) {
   jam_decompress_report r = {.struct_size = sizeof r};
   scatter(x, 2 * 48, 3);
   memcpy(x + 2 * 9, x + 2 * 8, 2 * sizeof *x);
-  jam_system *sys = soft(x, 48, 2, 0.17, 1);
+  OWNED jam_system *sys = soft(x, 48, 2, 0.17, 1);
   DEFAULTS(decompress, o);
   o.crunch = 0, o.isostatic = 0, o.distance = 1e-3;
   assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
@@ -138,5 +134,4 @@ CASE(other_calls) {
   m.alpha = 2.0, m.temperature = 1e-3, m.sweeps = 100;
   assert_int_equal(jam_monte_carlo(sys, &m, NULL), JAM_OK);
   assert_true(closest(sys, 48, 2, 0.0, NULL) > 0.01);
-  jam_destroy(sys);
 }

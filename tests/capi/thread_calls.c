@@ -13,8 +13,7 @@ enum { THREADS = 3, ROUNDS = 2, SETTINGS = 400 };
 static int may_run_beside(const struct call_entry *entry) {
   static const char *const alone[] = {"jam_notes",   "jam_set_positions", "jam_set_velocities",
                                       "jam_destroy", "jam_set_log",       "jam_set_progress"};
-  size_t k;
-  for (k = 0; k < sizeof alone / sizeof *alone; ++k)
+  for (size_t k = 0; k < sizeof alone / sizeof *alone; ++k)
     if (!strcmp(entry->name, alone[k])) return 0;
   return entry->start != NONE && entry->start != STEP;
 }
@@ -25,14 +24,12 @@ static char wrong[200];
 static pthread_mutex_t count = PTHREAD_MUTEX_INITIALIZER;
 
 static void *call_all(void *first) {
-  int round, k;
-  for (round = 0; round < ROUNDS; ++round)
-    for (k = 0; k < CALLS; ++k) {
+  for (int round = 0; round < ROUNDS; ++round)
+    for (int k = 0; k < CALLS; ++k) {
       const struct call_entry *const entry = &every_call[(k + 23 * *(const int *)first) % CALLS];
-      jam_status status;
       if (!may_run_beside(entry)) continue;
       jam_set_error(NULL);
-      status = entry->call(NULL, shared);
+      jam_status status = entry->call(NULL, shared);
       if (status != JAM_E_INTERNAL && status != JAM_E_NULL && status != JAM_E_FORMAT &&
           (status == JAM_OK || jam_last_error()[0]))
         continue;
@@ -84,15 +81,14 @@ static void *set_logs(void *unused) {
 CASE(every_call_from_several_threads) {
   static const int first[THREADS] = {0, 1, 2};
   pthread_t threads[THREADS], setter;
-  int k;
   shared = system_for(NETWORK);
   assert_non_null(shared);
   assert_int_equal(pthread_create(&setter, NULL, set_logs, NULL), 0);
-  for (k = 0; k < THREADS; ++k) assert_int_equal(pthread_create(&threads[k], NULL, call_all, (void *)&first[k]), 0);
-  for (k = 0; k < THREADS; ++k) assert_int_equal(pthread_join(threads[k], NULL), 0);
+  for (int k = 0; k < THREADS; ++k) assert_int_equal(pthread_create(&threads[k], NULL, call_all, (void *)&first[k]), 0);
+  for (int k = 0; k < THREADS; ++k) assert_int_equal(pthread_join(threads[k], NULL), 0);
   assert_int_equal(pthread_join(setter, NULL), 0);
   if (wrong[0]) fail_msg("%s", wrong);
-  for (k = 0; k < SETTINGS; ++k) assert_int_equal(told[k].late, 0);
+  for (int k = 0; k < SETTINGS; ++k) assert_int_equal(told[k].late, 0);
   info_of(shared); /* nobody is left inside */
   assert_int_equal(jam_set_log(shared, NULL, 0, NULL), JAM_OK);
   jam_destroy(shared);

@@ -20,7 +20,7 @@ std::string file_name() { return "thread_gate." + std::to_string(getpid()) + ".j
 std::vector<jam_status> const_calls(jam_system *sys, const char *path) {
   const double *view = nullptr;
   size_t len = 0, needed = 0;
-  jam_system *copy = nullptr;
+  OWNED jam_system *copy = nullptr;
   SIZED(jam_info, info);
   std::vector<jam_status> out{jam_get_info(sys, &info),
                               jam_view(sys, JAM_VIEW_POSITIONS, &view, &len),
@@ -28,7 +28,6 @@ std::vector<jam_status> const_calls(jam_system *sys, const char *path) {
                               jam_copy(sys, &copy),
                               jam_write_checkpoint(sys, path),
                               jam_gaps(sys, 0.1, 0, nullptr, 0, nullptr, 0, &needed)};
-  jam_destroy(copy);
   return out;
 }
 
@@ -49,7 +48,7 @@ int32_t on_progress(const jam_progress *, void *user) {
 }
 
 CASE(only_the_callback_reads_during_a_verb) {
-  jam_system *sys = random_spheres(3, 100, 0.2, 1);
+  OWNED jam_system *sys = random_spheres(3, 100, 0.2, 1);
   std::vector<jam_status> seen;
   Visit visit{sys, file_name(), nullptr, 0};
   const std::string good = visit.path + ".good";
@@ -67,14 +66,12 @@ CASE(only_the_callback_reads_during_a_verb) {
   assert_int_equal(seen.size(), 8);
   for (const jam_status status : seen) assert_int_equal(status, JAM_E_BUSY);
   for (const std::string &path : {visit.path, good}) {
-    jam_system *read = nullptr;
+    OWNED jam_system *read = nullptr;
     assert_int_equal(jam_read_checkpoint(path.c_str(), nullptr, nullptr, &read), JAM_OK);
-    jam_destroy(read);
     std::remove(path.c_str());
   }
   for (const jam_status status : const_calls(sys, good.c_str())) assert_int_equal(status, JAM_OK);
   std::remove(good.c_str());
-  jam_destroy(sys);
 }
 
 }  // namespace

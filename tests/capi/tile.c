@@ -27,7 +27,7 @@ static void assert_same(const jam_system *a, const jam_system *b, getter get) {
 CASE(one_copy_has_the_bits_of_the_packing) {
   const int32_t once[3] = {1, 1, 1};
   for (int dim = 2; dim <= 3; ++dim) {
-    jam_system *sys = crunched(dim, 1), *one = NULL;
+    OWNED jam_system *sys = crunched(dim, 1), *one = NULL;
     jam_crunch_report a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
     assert_int_equal(jam_tile(sys, once, (size_t)dim, &one), JAM_OK);
     same_view(sys, one, JAM_VIEW_POSITIONS);
@@ -38,15 +38,13 @@ CASE(one_copy_has_the_bits_of_the_packing) {
     assert_int_equal(jam_get_crunch_report(sys, &a), JAM_OK);
     assert_int_equal(jam_get_crunch_report(one, &b), JAM_OK);
     assert_memory_equal(&a, &b, sizeof a);
-    jam_destroy(one);
-    jam_destroy(sys);
   }
 }
 
 /* Copies of copies are copies: the same spheres at the same places, to the rounding of one sum. */
 CASE(copies_of_copies_are_copies) {
   const int32_t along_x[2] = {2, 1}, along_y[2] = {1, 3}, both[2] = {2, 3};
-  jam_system *sys = crunched(2, 3), *half = NULL, *twice = NULL, *at_once = NULL;
+  OWNED jam_system *sys = crunched(2, 3), *half = NULL, *twice = NULL, *at_once = NULL;
   size_t needed, contacts;
   assert_int_equal(jam_tile(sys, along_x, 2, &half), JAM_OK);
   assert_int_equal(jam_tile(half, along_y, 2, &twice), JAM_OK);
@@ -58,7 +56,6 @@ CASE(copies_of_copies_are_copies) {
   assert_same(twice, at_once, jam_forces);
   assert_int_equal(jam_forces(at_once, NULL, 0, &needed), JAM_OK);
   assert_int_equal(needed, 6 * contacts);
-  jam_destroy(sys), jam_destroy(half), jam_destroy(twice), jam_destroy(at_once);
 }
 
 static void refuse(const jam_system *sys, int32_t x, int32_t y, int32_t z, size_t len, jam_status code,
@@ -71,7 +68,7 @@ static void refuse(const jam_system *sys, int32_t x, int32_t y, int32_t z, size_
 }
 
 CASE(what_cannot_be_tiled_is_named) {
-  jam_system *sys = crunched(3, 2), *slit = NULL, *tube = NULL, *ball = NULL;
+  OWNED jam_system *sys = crunched(3, 2), *slit = NULL, *tube = NULL, *ball = NULL;
   refuse(sys, 1, 0, 1, 3, JAM_E_ARGUMENT, "count[1] is 0");
   refuse(sys, 1, 1, -5, 3, JAM_E_ARGUMENT, "count[2] is -5");
   refuse(sys, 1, 1, 1, 2, JAM_E_ARGUMENT, "count has 2 numbers");
@@ -85,13 +82,12 @@ CASE(what_cannot_be_tiled_is_named) {
   refuse(tube, 1, 2, 1, 3, JAM_E_UNSUPPORTED, "count[1] is 2");
   assert_int_equal(create_walled(&walled_scenes[BALL], N, 0.1, 1, NULL, &ball), JAM_OK);
   refuse(ball, 1, 1, 2, 3, JAM_E_UNSUPPORTED, "count[2] is 2");
-  jam_destroy(sys), jam_destroy(slit), jam_destroy(tube), jam_destroy(ball);
 }
 
 /* So that a binding that asks for the number of modes fills no array in vain. */
 CASE(modes_at_a_wave_vector_are_refused_with_their_number) {
   const struct { double wave[3], bytes; } cases[] = {{{0.5, 0.0, 0.0}, 40.0}, {{0.5, 0.25, 0.0}, 96.0}};
-  jam_system *sys = crunched(3, 1);
+  OWNED jam_system *sys = crunched(3, 1);
   for (int k = 0; k < 2; ++k) {
     const double *q = cases[k].wave;
     size_t rows = 0;
@@ -103,5 +99,4 @@ CASE(modes_at_a_wave_vector_are_refused_with_their_number) {
     assert_int_equal(jam_set_memory_limit(sys, 1.01 * bytes), JAM_OK);
     assert_int_equal(jam_bloch_modes(sys, NULL, q, 3, JAM_MODE_COLUMNS, left, MOST, NULL, 0, &rows), JAM_OK);
   }
-  jam_destroy(sys);
 }

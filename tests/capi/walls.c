@@ -26,7 +26,7 @@ static double volume(const walled *s) {
 CASE(random_start_lies_inside) {
   for (int k = 0; k < WALLED; ++k) {
     const walled *s = &walled_scenes[k];
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     double sum = 0.0, areas = 0.0;
     const size_t len = 60;
     assert_int_equal(create_walled(s, 60, 0.15, 7, NULL, &sys), JAM_OK);
@@ -51,7 +51,6 @@ CASE(random_start_lies_inside) {
     int closed = round;
     for (int c = 0; c < s->dim; ++c) closed += s->walls >> c & 1;
     assert_true(fabs(areas / (closed * volume(s)) - 1.0) < 1e-14);
-    jam_destroy(sys);
   }
 }
 
@@ -89,21 +88,19 @@ CASE(overlaps_with_walls_are_named_or_shrunk) {
 CASE(spheres_do_not_meet_across_a_wall) {
   /* In a periodic cell these two would overlap. */
   const double x[] = {0.5, 0.11, 0.5, 0.89};
-  jam_system *sys = NULL;
+  OWNED jam_system *sys = NULL;
   assert_int_equal(from_arrays(&walled_scenes[LINES], x, 2, 0.21, JAM_OVERLAP_REFUSE, &sys), JAM_OK);
-  jam_destroy(sys);
 }
 
 static jam_status start_with(int32_t dim, const double *cell, int32_t container, int32_t walls, int32_t model,
                              double delta) {
   jam_start start = {.struct_size = sizeof start};
-  jam_system *sys = NULL;
+  OWNED jam_system *sys = NULL;
   DEFAULTS(create, o);
   o.dim = dim, o.n = 10, o.packing_fraction = 0.1, o.model = model, o.non_additivity = delta;
   if (cell) start.cell = cell, start.cell_len = (size_t)(dim * dim);
   o.container = container, o.walls = walls;
   const jam_status status = jam_create(&o, &start, &sys);
-  jam_destroy(sys);
   return status;
 }
 
@@ -163,7 +160,7 @@ CASE(contradicting_files_are_refused) {
 /* A stopped run goes on from a checkpoint to the bits of one that never stopped. */
 CASE(checkpoints_go_on_to_the_same_bits) {
   for (int k = 0; k < WALLED; ++k) {
-    jam_system *whole = NULL, *part = NULL, *back = NULL;
+    OWNED jam_system *whole = NULL, *part = NULL, *back = NULL;
     jam_compress_options o;
     jam_compress_options_init(&o, sizeof o);
     o.growth_rate = 1e-2, o.pressure = 50.0;
@@ -179,13 +176,12 @@ CASE(checkpoints_go_on_to_the_same_bits) {
     same(whole, back);
     for (int w = 0; w < count_walls(whole); ++w)
       assert_true(of_wall(whole, w, JAM_WALL_PRESSURE) == of_wall(back, w, JAM_WALL_PRESSURE));
-    jam_destroy(whole), jam_destroy(part), jam_destroy(back);
   }
 }
 
 /* Every call that would give an answer for a cell without walls refuses. */
 CASE(calls_that_know_no_walls_refuse) {
-  jam_system *sys = NULL, *tube = NULL, *ball = NULL;
+  OWNED jam_system *sys = NULL, *tube = NULL, *ball = NULL;
   double real[4096];
   size_t needed;
   const double cell[] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -207,20 +203,18 @@ CASE(calls_that_know_no_walls_refuse) {
     if (statuses[k] != JAM_E_UNSUPPORTED) print_error("call %zu gives %d\n", k, (int)statuses[k]);
     assert_int_equal(statuses[k], JAM_E_UNSUPPORTED);
   }
-  jam_destroy(sys), jam_destroy(tube), jam_destroy(ball);
 }
 
 /* Lists of all pairs, for ever: few spheres, or steps as long as the cell. */
 CASE(dilute_monte_carlo_ends) {
   for (int k = 0; k < WALLED; ++k) {
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     jam_monte_carlo_report report = {.struct_size = sizeof report};
     DEFAULTS(monte_carlo, o);
     o.sweeps = 200;
     assert_int_equal(create_walled(&walled_scenes[k], 20, 0.01, 3, NULL, &sys), JAM_OK);
     assert_int_equal(jam_monte_carlo(sys, &o, &report), JAM_OK);
     assert_true(report.pressure > 0.5 && report.pressure < 2.0); /* near the ideal gas */
-    jam_destroy(sys);
   }
 }
 
@@ -229,12 +223,11 @@ CASE(a_sphere_that_fills_its_container_stalls) {
   const int scenes[] = {BALL, CIRCLE, CAN};
   const double centre[] = {0.5, 0.5, 0.5};
   for (int k = 0; k < 3; ++k) {
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     jam_md_report report = {.struct_size = sizeof report};
     assert_int_equal(from_arrays(&walled_scenes[scenes[k]], centre, 1, 1.0, JAM_OVERLAP_REFUSE, &sys), JAM_OK);
     assert_int_equal(jam_run(sys, NULL, &report), JAM_NOT_CONVERGED);
     assert_int_equal(report.stop_reason, JAM_STOP_STALLED);
-    jam_destroy(sys);
   }
 }
 
@@ -254,7 +247,7 @@ CASE(narrow_scenes_start_lower) {
     for (size_t q = 0; q < sizeof counts / sizeof *counts; ++q)
       for (int64_t seed = 1; seed <= 2; ++seed) {
         double cell[9] = {0.0};
-        jam_system *sys = NULL;
+        OWNED jam_system *sys = NULL;
         const int d = scenes[k].dim;
         DEFAULTS(create, o);
         o.dim = d, o.n = counts[q], o.seed = seed, o.container = scenes[k].container, o.walls = scenes[k].walls;
@@ -271,7 +264,6 @@ CASE(narrow_scenes_start_lower) {
           sys = NULL, o.packing_fraction = 0.2;
           assert_true(create_in_cell(&o, cell, (size_t)(d * d), NULL, 0, NULL, 0, &sys) < 0);
         }
-        jam_destroy(sys);
       }
   assert_true(lower > 10);
 }

@@ -36,23 +36,21 @@ jam_system *soft_disks(double box, double packing_fraction) {
 CASE(diameters_of_the_box) {
   const std::vector<double> x = many_points(20000);
   for (const double diameter : {0.3, 0.99}) {
-    jam_system *sys = nullptr;
+    OWNED jam_system *sys = nullptr;
     SAYS(create(x, diameter, JAM_OVERLAP_REFUSE, JAM_MODEL_EUCLID, &sys), JAM_E_OVERLAP, "spheres");
     // Shrunk until the closest pair touches: as from small diameters.
-    jam_system *small = nullptr;
+    OWNED jam_system *small = nullptr;
     assert_int_equal(create(x, diameter, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &sys), JAM_OK);
     assert_int_equal(create(x, 0.01, JAM_OVERLAP_SHRINK, JAM_MODEL_EUCLID, &small), JAM_OK);
     const double *const a = view_of(sys, JAM_VIEW_DIAMETERS), *const b = view_of(small, JAM_VIEW_DIAMETERS);
     assert_true(std::fabs(a[0] - b[0]) < 1e-12 * b[0]);
-    jam_destroy(sys), jam_destroy(small);
   }
 }
 
 CASE(radii_of_boxes) {
-  jam_system *sys = random_spheres(3, 20000, 0.0, 1);
+  OWNED jam_system *sys = random_spheres(3, 20000, 0.0, 1);
   size_t needed = 0;
   SAYS(jam_gaps(sys, 900.0, 0, nullptr, 0, nullptr, 0, &needed), JAM_E_MEMORY, "pairs");
-  jam_destroy(sys);
 }
 
 // Velocities slower by a power of two give the same path bit for bit; what times would not resolve is refused.
@@ -60,7 +58,7 @@ CASE(slow_velocities) {
   std::vector<double> ends[2];
   for (int k = 0; k < 2; ++k) {
     constexpr size_t len = 64;
-    jam_system *sys = random_spheres(2, 32, 0.5, 1);
+    OWNED jam_system *sys = random_spheres(2, 32, 0.5, 1);
     run(sys, 20.0);
     const double *view = view_of(sys, JAM_VIEW_VELOCITIES);
     std::vector<double> v(view, view + len);
@@ -74,7 +72,6 @@ CASE(slow_velocities) {
     SAYS(jam_set_velocities(sys, v.data(), len), JAM_E_ARGUMENT, "from 1e-09");
     v[14] = 0.0;  // all at rest
     assert_int_equal(jam_set_velocities(sys, v.data(), len), JAM_OK);
-    jam_destroy(sys);
   }
   assert_memory_equal(ends[0].data(), ends[1].data(), ends[0].size() * sizeof(double));
 }
@@ -85,7 +82,7 @@ CASE(energies_in_any_unit) {
   double energy[3];
   for (int k = 0; k < 3; ++k) {
     const double unit = std::ldexp(1.0, 300 * (k - 1));
-    jam_system *sys = soft_disks(1.0, 0.9);
+    OWNED jam_system *sys = soft_disks(1.0, 0.9);
     DEFAULTS(monte_carlo, o);
     SIZED(jam_monte_carlo_report, report);
     o.alpha = 2.5, o.energy_scale = 1024.0 * unit, o.temperature = unit, o.sweeps = 50;
@@ -93,7 +90,6 @@ CASE(energies_in_any_unit) {
     energy[k] = report.energy / unit;
     const double *const x = view_of(sys, JAM_VIEW_POSITIONS);
     ends[k].assign(x, x + 80);
-    jam_destroy(sys);
   }
   assert_true(energy[0] == energy[1] && energy[2] == energy[1]);
   assert_true(ends[0] == ends[1] && ends[2] == ends[1]);
@@ -104,7 +100,7 @@ CASE(soft_modes_in_any_box) {
   std::vector<double> lambda[3];
   for (int k = 0; k < 3; ++k) {
     const double box = std::ldexp(1.0, 60 * (k - 1));
-    jam_system *sys = soft_disks(box, 1.0);
+    OWNED jam_system *sys = soft_disks(box, 1.0);
     assert_int_equal(jam_relax(sys, nullptr, nullptr), JAM_OK);
     DEFAULTS(hessian, h);
     DEFAULTS(modes, o);
@@ -113,7 +109,6 @@ CASE(soft_modes_in_any_box) {
     size_t rows = 0;
     assert_int_equal(jam_modes(sys, &h, &o, 2, table, 20, nullptr, 0, &rows), JAM_OK);
     for (size_t m = 0; m < rows; ++m) lambda[k].push_back(table[2 * m] * box * box);
-    jam_destroy(sys);
   }
   assert_true(lambda[1][0] > 1e-6);  // no translation
   for (const auto &other : lambda)
@@ -121,7 +116,7 @@ CASE(soft_modes_in_any_box) {
 }
 
 CASE(soft_numbers) {
-  jam_system *sys = soft_disks(1.0, 1.0);
+  OWNED jam_system *sys = soft_disks(1.0, 1.0);
   const double turn = 1e-3, loads[] = {0, 1, 0, 0, 1e300, 0, 0, 1e300};
   DEFAULTS(shear, s);
   s.strain = JAM_STRAIN_ALL;
@@ -133,7 +128,6 @@ CASE(soft_numbers) {
   DEFAULTS(relax, o);
   o.scale = JAM_SOFT_ABSOLUTE, o.alpha = 6.0;
   SAYS(jam_relax(sys, &o, nullptr), JAM_E_ARGUMENT, "alpha");
-  jam_destroy(sys);
 }
 
 CASE(sizes_in_any_unit) {
@@ -169,12 +163,10 @@ CASE(fractions_in_any_box) {
     DEFAULTS(create, o);
     o.n = 40, o.box = box, o.overlap = JAM_OVERLAP_SHRINK;
     const double diameter = 0.1 * box;
-    jam_system *sys = nullptr;
-    assert_int_equal(create_from(&o, x.data(), x.size(), &diameter, 1, &sys), JAM_OK);
+    OWNED jam_system *sys = created_from(&o, x.data(), x.size(), &diameter, 1);
     std::vector<double> phi(40);
     size_t needed = 0;
     const jam_status status = jam_local_fraction(sys, phi.data(), phi.size(), &needed);
-    jam_destroy(sys);
     if (status == JAM_E_UNSUPPORTED) skip();  // built without voro++
     assert_int_equal(status, JAM_OK);
     if (box == 1.0) expected = phi;

@@ -68,15 +68,6 @@ CASE(watching_changes_nothing) {
   assert_true(positions(plain) == positions(watched));
 }
 
-// Shifts of all pairs of 20000 spheres: 2e8 searches.
-CASE(planting_stops_in_time) {
-  jam_create_options o = options(20000, 1.0);
-  o.model = JAM_MODEL_MK, o.wall_time = 0.1;
-  jam_system *sys = nullptr;
-  assert_int_equal(jam_create(&o, nullptr, &sys), JAM_LIMIT);
-  assert_null(sys);
-}
-
 // Above saturation no number of trials helps: told at once, and not for mixtures or few spheres, which pack otherwise.
 CASE(fractions_out_of_reach) {
   for (int dim = 2; dim <= 8; ++dim) {

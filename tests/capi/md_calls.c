@@ -46,22 +46,6 @@ CASE(exact_packing_fraction) {
   assert_true(fabs(info_of(sys).packing_fraction - 0.45) < 1e-13);
 }
 
-CASE(exact_collisions) {
-  OWNED jam_system *sys = random_spheres(3, 50, 0.3, 1);
-  jam_md_report report = empty_report();
-  DEFAULTS(run, r);
-  r.collisions_per_particle = 10.0;
-  assert_int_equal(jam_run(sys, &r, &report), JAM_OK);
-  assert_int_equal(report.stop_reason, JAM_STOP_COLLISIONS);
-  assert_int_equal(report.collisions, 250);
-  assert_true(report.events >= report.collisions && report.time > 0.0 && report.collisions_per_second > 0.0);
-  DEFAULTS(compress, c);
-  c.collisions_per_particle = 4.0;
-  assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT);
-  assert_int_equal(report.stop_reason, JAM_STOP_COLLISIONS);
-  assert_int_equal(report.collisions, 100);
-}
-
 /* A simple cubic lattice. */
 static jam_system *lattice(double diameter) {
   double x[27 * 3];

@@ -1,6 +1,4 @@
-/* The protocol of jam_compress: limits and targets keep it, a growth rate makes one stage, resumed calls end it. */
-#include <math.h>
-
+/* The protocol of jam_compress: limits and targets keep it, resumed calls end it. */
 #include "steps.h"
 
 static jam_system *start(void) { return random_spheres(3, 60, 0.0, 2); }
@@ -46,21 +44,6 @@ CASE(targets_end_the_protocol) {
   o.packing_fraction = 0.5;
   r = grow(dense, &o, JAM_OK);
   assert_int_equal(r.stop_reason, JAM_STOP_PACKING_FRACTION);
-  assert_true(fabs(r.packing_fraction - 0.5) < 1e-6);
-}
-
-/* One stage of a rate of one's own goes to the same pressure as jam-pack --growth RATE. */
-CASE(a_rate_makes_one_stage) {
-  OWNED jam_system *one = start(), *two = start();
-  jam_compress_options o = defaults();
-  o.growth_rate = 0.1;
-  jam_md_report r = grow(one, &o, JAM_OK);
-  assert_true(r.pressure > 0.9e6);
-  assert_true(fabs(r.growth_rate / 0.1 - 1.0) < 1e-12);
-  o.growth_rate = 0.0, o.growth_rate_end = 1e-3;
-  SAYS(jam_compress(two, &o, NULL), JAM_E_ARGUMENT, "growth_rate_end");
-  o.growth_rate = -1.0, o.growth_rate_end = 0.0;
-  assert_int_equal(jam_compress(two, &o, NULL), JAM_E_ARGUMENT);
 }
 
 /* Slices of wall time, which is that of the call, not of each stage: however often it is stopped, also between two

@@ -47,12 +47,6 @@ CASE(diameters_of_the_box) {
   }
 }
 
-CASE(radii_of_boxes) {
-  OWNED jam_system *sys = random_spheres(3, 20000, 0.0, 1);
-  size_t needed = 0;
-  SAYS(jam_gaps(sys, 900.0, 0, nullptr, 0, nullptr, 0, &needed), JAM_E_MEMORY, "pairs");
-}
-
 // Velocities slower by a power of two give the same path bit for bit; what times would not resolve is refused.
 CASE(slow_velocities) {
   std::vector<double> ends[2];

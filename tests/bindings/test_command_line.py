@@ -112,6 +112,12 @@ class CommandLine(InFolder):
     def begin(self, verb, o):
         return [verb.name] + ([self.file] if "input" in verb.files and o.name != "input" else [])
 
+    def whole(self, verb, o):
+        """The least command line of a verb that has something to do, without its option o."""
+        words = {"input": self.file} if verb.name not in ("pack", "compress") and o.name != "resume" else {}
+        words |= {"export": {"output": "a.data"}, "page": {"page": "p.html"}, "shear": {"to": "0.01", "output": "a.xyz"}}.get(verb.name, {})
+        return [verb.name, *(w for name, value in words.items() if name != o.name for w in (f"--{name}", value))]
+
     def test_nothing_is_ignored(self):
         """An option without any of those that it needs, and beside each that leaves it without effect, in one verb that takes it."""
         named = {o.name: o for o in ALL}
@@ -156,17 +162,7 @@ class CommandLine(InFolder):
                 continue
             ending = next(iter(re.findall(r"FILE(\.[a-z]+)", o.metavar)), {"voxels": ".npy", "plot": ".png"}.get(o.name, ""))
             path = self.folder / "none" / ("f" + ending)
-            words = [verb.name, f"--{o.name}", path]
-            if o.kind == "output" and o.name != "checkpoint":
-                words += ["--input", self.file]
-            if o.name == "input":
-                words += {"export": ["--output", "out.data"], "page": ["--page", "page.html"]}.get(verb.name, [])
-            if verb.name == "page" and o.name == "plot":
-                words += ["--page", "page.html"]
-            if verb.name == "shear":
-                words += ["--to", "0.01", "--output", "out.xyz"][: 2 if o.name == "output" else 4]
-            if o.name == "checkpoint" and verb.name in ("crunch", "shear"):
-                words += ["--input", self.file]
+            words = [*self.whole(verb, o), f"--{o.name}", path]
             status = OUTPUT if o.kind == "output" else USAGE if verb.name == "check" else REFUSED
             with self.subTest(verb=verb.name, option=o.name):
                 if o.name == "report":  # has no effect beside --json
@@ -191,11 +187,8 @@ class CommandLine(InFolder):
         for verb, o in self.cases():
             if o.kind != "output" or o.gzip or o.name == "plot":
                 continue
-            words = [verb.name] + (["--input", self.file] if "input" in verb.files or verb.name == "pack" else [])
-            words += ["p.html"] if verb.name == "page" else []
-            words += ["--to", "0.01", "--output", "out.xyz"] if verb.name == "shear" else []
             with self.subTest(verb=verb.name, option=o.name):
-                code, _, err = self.run_words(*words, f"--{o.name}", "f.csv.gz")
+                code, _, err = self.run_words(*self.whole(verb, o), f"--{o.name}", "f.csv.gz")
                 self.assertEqual((code, "leave .gz out" in err), (USAGE, True), err)
 
     def test_a_checkpoint_is_no_packing(self):

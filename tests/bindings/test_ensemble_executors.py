@@ -62,6 +62,8 @@ class Executors(InFolder):
     def check(self):
         self.assertEqual(self.ensemble.status(SEEDS).done, len(SEEDS))
         for entry in self.ensemble:
+            if entry.seed not in SEEDS:
+                continue
             made, expected = entry.system(), self.expected[entry.seed]
             for name in ("positions", "diameters", "velocities", "forces"):
                 np.testing.assert_array_equal(getattr(made, name), getattr(expected, name))
@@ -106,11 +108,7 @@ class Executors(InFolder):
                 command + ["--executor", "dask", "--scheduler", address], capture_output=True, text=True
             )
             self.assertEqual(done.returncode, 0, done.stderr)
-        self.check_six()
-
-    def check_six(self):
         self.assertEqual(len(self.ensemble), 6)
-        self.ensemble.files.packing(self.ensemble.name(6)).unlink()
         self.check()
 
     def test_long_calls_leave_the_interpreter_to_other_threads(self):

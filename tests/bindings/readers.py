@@ -30,7 +30,7 @@ def write(folder):
     s.write(folder / "s.vtp")
     s.write_contacts(folder / "f.vtp")
     s.write_contacts(folder / "f.dump")
-    np.savez(folder / "want.npz", x=s.positions, sigma=s.diameters, z=s.coordination, forces=s.forces)
+    np.savez(folder / "want.npz", x=s.positions, sigma=s.diameters, z=s.coordination, forces=s.forces, pairs=s.contacts.pairs)
 
 
 def check_vtk(vtk, folder, want):
@@ -51,6 +51,9 @@ def check_vtk(vtk, folder, want):
     assert (vtk_to_numpy(spheres.GetPointData().GetArray("contacts")) == want["z"]).all()
     assert ((vtk_to_numpy(spheres.GetPointData().GetArray("kind")) == 0) == (want["z"] == 0)).all()
     assert (vtk_to_numpy(lines.GetCellData().GetArray("force")) == np.tile(want["forces"], 2)).all()
+    ends = vtk_to_numpy(lines.GetPoints().GetData()).reshape(2 * m, 2, 3)  # half a contact from each of its spheres
+    half = want["sigma"][want["pairs"]].mean(1) / 2
+    assert np.allclose(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1), np.tile(half, 2), rtol=1e-9)
     glyph = vtk.vtkGlyph3D()  # the filter that users are told to use
     glyph.SetInputData(spheres)
     source = vtk.vtkSphereSource()

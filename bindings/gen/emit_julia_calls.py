@@ -28,7 +28,7 @@ COUNTS = {  # whole numbers that are none
 }
 # Bodies in system.jl and network.jl, which call by the same table.
 BY_HAND = SKIP - {"jam_write_scaled", "jam_maximise_radii", "jam_contacts", "jam_forces", "jam_coordination", "jam_get_cell",
-                  "jam_relax", "jam_decompress"} | {"jam_modes", "jam_hessian", "jam_crunch_history", "jam_decompress_history", "jam_shear_history", "jam_write_checkpoint",
+                  "jam_relax", "jam_decompress"} | {"jam_modes", "jam_hessian", "jam_crunch_history", "jam_write_checkpoint",
                   "jam_isoconf_displacements", "jam_isoconf_distances", "jam_isoconf_series", "jam_get_isoconf_report"}
 
 

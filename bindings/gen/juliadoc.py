@@ -13,7 +13,8 @@ CHANGING = frozenset("""run compress crunch relax shear decompress monte_carlo c
     set_positions set_velocities set_cell scale_diameters set_memory_limit""".split())
 OTHER_NAMES = {"create": "System", "read": "System", "get_crunch_report": "report", "get_info": "info", "write_checkpoint": "checkpoint",
                "read_checkpoint": "from_checkpoint", "check_packing": "judge", "diameters": "sizes", "crunch_history": "history",
-               "write_page": "page", "get_cell": "cell", "view_positions": "positions", "view_velocities": "velocities"}
+               "write_page": "page", "get_cell": "cell", "view_positions": "positions", "view_velocities": "velocities",
+               "decompress_history": "soft_history"}
 
 
 def julia_name(name):

@@ -31,9 +31,3 @@ function shear!(s::System, to, mode = nothing; stress = nothing, progress = noth
     strain = isempty(m) ? nothing : m
     return verb(h -> jam_shear(h, o, turns, length(turns), strain, length(m), made), s, made, progress)
 end
-
-"Rows of the last `shear!` as a table: strain, stress, pressure, energy, phi, contacts, ..."
-shear_history(s::System) = call(s, :jam_shear_history, ())
-
-"Minima of the last `decompress!` as a table: phi, pressure, energy, coordination, distance, ..."
-soft_history(s::System) = call(s, :jam_decompress_history, ())

@@ -8,7 +8,6 @@
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/math.hpp"
-#include "network/own_images.hpp"
 
 namespace jam::inside {
 

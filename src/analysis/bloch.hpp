@@ -4,14 +4,7 @@
 //
 // A complex Hermitian matrix A + i B is computed as the symmetric ((A, -B), (B, A)), which has every eigenvalue twice.
 #pragma once
-#include <array>
-#include <cstdint>
-#include <vector>
-
 #include "analysis/modes.hpp"
-#include "core/packing.hpp"
-#include "network/contact_network.hpp"
-#include "network/hessian.hpp"
 #include "network/tile.hpp"
 #include "verdict/verdict.hpp"
 

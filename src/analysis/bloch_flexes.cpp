@@ -1,16 +1,12 @@
 // Flexes of copies of a packing, at each of their wave vectors.
 #include <algorithm>
-#include <functional>
 #include <limits>
-#include <optional>
 
 #include "analysis/bloch.hpp"
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
-#include "linalg/shifted_factor.hpp"
-#include "network/own_images.hpp"
-#include "network/softest_modes.hpp"
-#include "verdict/clearance.hpp"
+#include "linalg/block_cholesky.hpp"
+#include "network/flex.hpp"
 
 namespace jam::inside {
 namespace {

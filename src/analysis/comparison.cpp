@@ -1,12 +1,12 @@
-#include "analysis/comparison.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <limits>
 
+#include "analysis/structure.hpp"
 #include "core/error.hpp"
+#include "linalg/dot.hpp"
 
 namespace jam::inside {
 namespace {
@@ -106,8 +106,7 @@ void compare_positions(const Packing &a, const Packing &b, const std::vector<cha
   const double unit = diameter_mean(a);
   for (size_t i = 0; i < n; ++i) {
     if (!stable[i]) continue;
-    double u2 = 0.0;
-    for (size_t x = 0; x < d; ++x) u2 += c.displacement[i * d + x] * c.displacement[i * d + x];
+    const double u2 = squared(&c.displacement[i * d], a.dim);
     c.numbers.displacement_rms += u2 / weight;
     c.numbers.displacement_max = std::max(c.numbers.displacement_max, std::sqrt(u2) / unit);
   }

@@ -1,14 +1,10 @@
 // g(r), bond order.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include "analysis/structure.hpp"
-#include "analysis/tuning.hpp"
-#include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
-#include "core/pair_visit.hpp"
+#include "core/pair_levels.hpp"
 #include "core/shells.hpp"
 #include "network/resolution.hpp"
 

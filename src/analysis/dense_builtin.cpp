@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "analysis/modes.hpp"
-#include "analysis/tuning.hpp"
 #include "core/error.hpp"
 #include "linalg/blas.hpp"
 

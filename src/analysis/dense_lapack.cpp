@@ -2,9 +2,7 @@
 // back transformation go panel by panel, as dsytrd and dormtr do inside, so that they can be cancelled; dstedc is one
 // call.
 #include <algorithm>
-#include <cmath>
 #include "analysis/modes.hpp"
-#include "analysis/tuning.hpp"
 #include "core/error.hpp"
 #include "linalg/blas/single_thread.hpp"
 

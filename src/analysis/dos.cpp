@@ -3,13 +3,9 @@
 // at omega = 0.
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include "analysis/spectrum.hpp"
-#include "analysis/tuning.hpp"
+#include "analysis/modes.hpp"
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
-#include "core/math.hpp"
 #include "core/rng.hpp"
 #include "linalg/dot.hpp"
 

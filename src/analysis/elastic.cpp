@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <limits>
 #include <utility>
-#include "analysis/spectrum.hpp"
+#include "analysis/modes.hpp"
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 
 namespace jam::inside {
 namespace {

@@ -1,12 +1,12 @@
-#include "analysis/floppy.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "analysis/modes.hpp"
 #include "analysis/structure.hpp"
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/pair_rule.hpp"
+#include "linalg/dot.hpp"
 
 namespace jam::inside {
 
@@ -67,8 +67,7 @@ void FloppySolver::measure(size_t l, const double *dr, FloppyModes &out, size_t 
   std::vector<double> size(g_.nodes);
   double all = 0.0;
   for (size_t i = 0; i < size.size(); ++i) {
-    double s = 0.0;
-    for (size_t c = 0; c < d; ++c) s += dr[i * d + c] * dr[i * d + c];
+    const double s = squared(dr + i * d, g_.dim);
     all += s;
     size[i] = std::sqrt(s);
   }

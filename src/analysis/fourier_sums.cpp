@@ -1,4 +1,4 @@
-#include "analysis/fourier_sums.hpp"
+#include "analysis/structure.hpp"
 
 #include <algorithm>
 #include <cmath>

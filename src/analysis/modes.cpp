@@ -2,19 +2,17 @@
 // factor, highest on the matrix itself, modes near a frequency by an indefinite LDL^T.
 #include "analysis/modes.hpp"
 
+#include <Spectra/SymEigsSolver.h>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include <Spectra/SymEigsSolver.h>
-#include <Eigen/SparseCholesky>
-
-#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
-#include "core/checks.hpp"
-#include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/rng.hpp"
-#include "linalg/shifted_factor.hpp"
+#include "linalg/block_cholesky.hpp"
+#include "linalg/dot.hpp"
 
 namespace jam::inside {
 
@@ -241,8 +239,7 @@ jam_status find_modes(const RigidityMatrix &g, const ContactWeights &w, const ja
 double inverse_participation(int dim, int32_t nodes, const double *v) {
   double two = 0.0, four = 0.0;
   for (int32_t i = 0; i < nodes; ++i) {
-    double s = 0.0;
-    for (int c = 0; c < dim; ++c) s += v[static_cast<size_t>(i) * dim + c] * v[static_cast<size_t>(i) * dim + c];
+    const double s = squared(v + static_cast<size_t>(i) * dim, dim);
     two += s;
     four += s * s;
   }

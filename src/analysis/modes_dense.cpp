@@ -5,7 +5,6 @@
 #include <Eigen/Dense>
 
 #include "analysis/modes.hpp"
-#include "analysis/tuning.hpp"
 
 namespace jam::inside {
 

@@ -3,11 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "analysis/fourier_sums.hpp"
 #include "analysis/structure.hpp"
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/math.hpp"
 
 namespace jam::inside {

@@ -1,13 +1,11 @@
 // Local packing fractions: the volumes of radical Voronoi cells, cut by walls.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "analysis/structure.hpp"
 #include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
-#include "core/error.hpp"
 #include "core/math.hpp"
 #ifdef JAM_HAVE_VORO
 #include <voro++/voro++.hh>

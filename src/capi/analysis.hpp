@@ -1,12 +1,8 @@
 // What the analysis entry points share.
 #pragma once
-#include <cmath>
 #include <limits>
-#include "capi/guard.hpp"
-#include "core/call_scope.hpp"
-#include "network/certificate.hpp"
+#include "capi/table.hpp"
 #include "network/hessian.hpp"
-#include "network/rigidity_matrix.hpp"
 #include "verdict/text.hpp"
 
 namespace jam::inside {
@@ -74,21 +70,6 @@ inline jam_hessian_options take_hessian_options(const jam_hessian_options *h) {
   take_options(h, full);
   check_hessian_options(full);
   return full;
-}
-
-// One of several outputs of a call: checks before anything is written, then fills; count elements are valid, the rest
-// of `expected` becomes NaN.
-inline void check_output(const void *out, size_t len, size_t expected, const char *name) {
-  if (!out && len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
-  if (out && len < expected) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, len, expected);
-}
-template <class T>
-void put_output(const std::vector<T> &data, T *out, size_t expected) {
-  if (!out) return;
-  const size_t have = data.size() < expected ? data.size() : expected;
-  for (size_t k = 0; k < have; ++k) out[k] = data[k];
-  for (size_t k = have; k < expected; ++k)
-    out[k] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
 }
 
 }  // namespace jam::inside

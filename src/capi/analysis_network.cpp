@@ -1,8 +1,7 @@
 // Header section "analysis": the network from geometry, states of self-stress.
 #include "capi/analysis.hpp"
-#include "crunch/crunch.hpp"
-#include "network/contacts_by_distance.hpp"
 #include "network/contacts_from_geometry.hpp"
+#include "network/self_stress.hpp"
 
 using namespace jam::inside;
 

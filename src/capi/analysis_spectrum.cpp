@@ -1,11 +1,8 @@
 // Header section "analysis": density of states, moduli, comparing packings.
 #include <algorithm>
-#include "analysis/comparison.hpp"
-#include "analysis/spectrum.hpp"
+#include "analysis/modes.hpp"
+#include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
-#include "capi/table.hpp"
-#include "core/call_scope.hpp"
-#include "network/own_images.hpp"
 
 using namespace jam::inside;
 

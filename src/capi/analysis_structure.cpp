@@ -3,8 +3,7 @@
 #include <numeric>
 #include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
-#include "capi/table.hpp"
-#include "core/checks.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
 
 using namespace jam::inside;

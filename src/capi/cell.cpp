@@ -3,13 +3,9 @@
 #include <limits>
 
 #include "capi/analysis.hpp"
-#include "capi/guard.hpp"
-#include "capi/table.hpp"
 #include "core/cell_change.hpp"
 #include "core/create.hpp"
-#include "core/digits.hpp"
-#include "network/certificate.hpp"
-#include "network/own_images.hpp"
+#include "core/decimal.hpp"
 #include "network/tile.hpp"
 
 using namespace jam::inside;

@@ -2,16 +2,12 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
 
-#include "capi/guard.hpp"
 #include "capi/make_system.hpp"
-#include "core/checks.hpp"
 #include "core/create.hpp"
-#include "core/digits.hpp"
+#include "core/decimal.hpp"
 #include "core/limits.hpp"
 #include "core/pairs.hpp"
 

@@ -2,9 +2,7 @@
 #include "crunch/crunch.hpp"
 #include "capi/analysis.hpp"
 #include "capi/proof.hpp"
-#include "capi/table.hpp"
-#include "core/checks.hpp"
-#include "crunch/estimate.hpp"
+#include "core/limits.hpp"
 
 using namespace jam::inside;
 

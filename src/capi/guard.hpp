@@ -4,19 +4,14 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <new>
 #if __has_include(<cxxabi.h>)
 #include <cxxabi.h>
 #endif
-#include "capi/answer.hpp"
-#include "capi/blank_report.hpp"
 #include "capi/system.hpp"
-#include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/host_environment.hpp"
 #include "core/host_thread.hpp"
-#include "core/validate.hpp"
 
 namespace jam::inside {
 

@@ -1,16 +1,12 @@
 // Header section "files": jam_formats, jam_read, jam_read_as, jam_notes, jam_add_note, jam_write,
 // jam_write_scaled, jam_write_contacts.
 #include <cstring>
-#include <string>
 
 #include "capi/analysis.hpp"
-#include "capi/guard.hpp"
 #include "capi/make_system.hpp"
-#include "core/checks.hpp"
 #include "core/create.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
-#include "io/files.hpp"
 #include "io/formats.hpp"
 
 using namespace jam::inside;

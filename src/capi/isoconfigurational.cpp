@@ -1,9 +1,9 @@
-// Header section "Monte Carlo, runs from one configuration": the ensemble of runs and its sums.
-#include "dynamics/isoconfigurational/isoconfigurational.hpp"
+// Header section "Monte Carlo, runs from one configuration".
 #include <algorithm>
-#include "core/checks.hpp"
 
 #include "capi/table.hpp"
+#include "core/limits.hpp"
+#include "dynamics/isoconfigurational/isoconfigurational.hpp"
 
 using namespace jam::inside;
 
@@ -19,10 +19,8 @@ jam_status with_runs(const jam_system *sys, F &&f) noexcept {
 
 // One of several arrays of a call, in the user's unit; NULL leaves it out.
 void give_scaled(const char *name, const std::vector<double> &data, double unit, double *out, size_t out_len) {
-  if (!out && out_len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, out_len);
-  if (!out) return;
-  if (out_len < data.size()) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, out_len, data.size());
-  for (size_t k = 0; k < data.size(); ++k) out[k] = data[k] * unit;
+  check_output(out, out_len, data.size(), name);
+  for (size_t k = 0; out && k < data.size(); ++k) out[k] = data[k] * unit;
 }
 
 // Without any run its measured numbers are unknown.
@@ -150,6 +148,51 @@ jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, double *out,
     if (out)
       for (size_t k = 0; k < set.size(); ++k) out[k] *= made.box();
     return status;
+  });
+}
+
+jam_status jam_monte_carlo_options_init(jam_monte_carlo_options *o, size_t size) {
+  return init_options(o, size, default_monte_carlo_options());
+}
+
+jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, jam_monte_carlo_report *report) {
+  return guard_reporting(sys, report, [&]() -> Answer {
+    jam_monte_carlo_options full = default_monte_carlo_options();
+    take_options(o, full);
+    check_monte_carlo_options(full);
+    std::unique_ptr<MonteCarloRun> stage;
+    check_flag(full.resume, "resume");
+    if (full.resume) {
+      if (!sys->paused || sys->paused->phase() != JAM_PHASE_MONTE_CARLO)
+        fail(JAM_E_STATE, "resume is 1 but no Monte Carlo run was stopped early on this handle");
+      static_cast<const MonteCarloRun &>(*sys->paused).check_resumed(full);
+      stage.reset(static_cast<MonteCarloRun *>(sys->paused.release()));
+    } else {
+      if (full.first_sweep < 0) full.first_sweep = sys->sweeps;
+      stage = std::make_unique<MonteCarloRun>(sys->packing, full);
+    }
+    Limits limits;
+    limits.per_particle = static_cast<double>(full.sweeps);
+    limits.wall_time = full.wall_time;
+    Listeners listeners;
+    listeners.monitor = &sys->monitor;
+    if (sys->observing) listeners.observer = sys->observer.get();
+    jam_status status = JAM_OK;
+    {
+      const Running running(sys, stage.get());
+      status = stage->run(limits, listeners);
+    }
+    const jam_monte_carlo_report made = stage->report();
+    if (stage->begun()) {
+      check_packing(stage->packing(), JAM_E_STATE);  // a stage from a file may lead anywhere
+      sys->commit(stage->packing());
+    } else {
+      sys->crunch_paused.reset();  // a handle keeps only the last paused run
+    }
+    sys->sweeps = made.next_sweep;
+    if (status != JAM_OK) sys->paused = std::move(stage);
+    give_struct(made, report);
+    return stopped_run(status, made.stop_reason);
   });
 }
 

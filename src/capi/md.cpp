@@ -1,16 +1,13 @@
 // Header section "molecular dynamics": running, checkpoints, closed forms.
 #include <cmath>
-#include <memory>
-#include <string>
 #include <utility>
 
-#include "capi/guard.hpp"
 #include "capi/make_system.hpp"
 #include "core/create.hpp"
 #include "core/math.hpp"
 #include "core/size_laws.hpp"
 #include "dynamics/event_driven/run.hpp"
-#include "io/checkpoint.hpp"
+#include "io/files.hpp"
 
 using namespace jam::inside;
 

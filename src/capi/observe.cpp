@@ -15,17 +15,6 @@ jam_status with_observer(const jam_system *sys, F &&f) noexcept {
   });
 }
 
-// One of several arrays of a call: NULL leaves it out.
-template <class T>
-void give(const std::vector<T> &data, T *out, size_t out_len) {
-  if (out || out_len) give_array(data.data(), data.size(), out, out_len, nullptr);
-}
-template <class T>
-void check_room(const char *name, size_t count, const T *out, size_t out_len) {
-  if (!out && out_len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, out_len);
-  if (out && out_len < count) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, out_len, count);
-}
-
 }  // namespace
 
 extern "C" {
@@ -83,12 +72,12 @@ jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size
     if (needed) *needed = sys->packing.n();
     if (collisions && o.collisions().empty())
       fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
-    check_room("collisions", o.collisions().size(), collisions, collisions_len);
-    check_room("displacement", o.travelled().size(), displacement, displacement_len);
-    give(o.collisions(), collisions, collisions_len);
+    check_output(collisions, collisions_len, o.collisions().size(), "collisions");
+    check_output(displacement, displacement_len, o.travelled().size(), "displacement");
+    put_output(o.collisions(), collisions, o.collisions().size());
     std::vector<double> way = o.travelled();
     for (double &x : way) x *= sys->packing.cell.side();
-    give(way, displacement, displacement_len);
+    put_output(way, displacement, way.size());
     return JAM_OK;
   });
 }
@@ -100,9 +89,9 @@ jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_
     if (o.collisions().empty()) fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
     const std::vector<PairSums::Slot> slots = o.pairs().sorted();
     if (needed) *needed = slots.size();
-    check_room("pair", 2 * slots.size(), pair, pair_len);
-    check_room("collisions", slots.size(), collisions, collisions_len);
-    check_room("momentum", slots.size(), momentum, momentum_len);
+    check_output(pair, pair_len, 2 * slots.size(), "pair");
+    check_output(collisions, collisions_len, slots.size(), "collisions");
+    check_output(momentum, momentum_len, slots.size(), "momentum");
     for (size_t k = 0; k < slots.size(); ++k) {
       if (pair)
         pair[2 * k] = static_cast<int32_t>(slots[k].key >> 32),

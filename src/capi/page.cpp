@@ -4,7 +4,7 @@
 #include "analysis/structure.hpp"
 #include "capi/guard.hpp"
 #include "capi/proof.hpp"
-#include "core/checks.hpp"
+#include "core/limits.hpp"
 
 using namespace jam::inside;
 

@@ -4,11 +4,8 @@
 
 #include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
-#include "capi/table.hpp"
 #include "core/container.hpp"
 #include "io/pore_space.hpp"
-#include "pore/pore_sizes.hpp"
-#include "pore/profile.hpp"
 
 using namespace jam::inside;
 

@@ -4,9 +4,8 @@
 #include <cstdio>
 
 #include "capi/analysis.hpp"
-#include "core/checks.hpp"
+#include "core/limits.hpp"
 #include "io/files.hpp"
-#include "proof/find.hpp"
 #include "proof/newton.hpp"
 
 using namespace jam::inside;

@@ -3,9 +3,6 @@
 #include <limits>
 #include <string>
 
-#include "core/error.hpp"
-#include "core/packing.hpp"
-#include "jam/jam.h"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "capi/table.hpp"
-#include "core/cell_change.hpp"
 #include "core/create.hpp"
 #include "crunch/crunch.hpp"
 

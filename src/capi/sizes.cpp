@@ -1,10 +1,5 @@
 // Header section "sizes".
-#include <string>
-#include <vector>
-
 #include "capi/guard.hpp"
-#include "core/cell_reduction.hpp"
-#include "core/limits.hpp"
 #include "core/size_laws.hpp"
 #include "io/files.hpp"
 

@@ -1,5 +1,6 @@
 // Status codes, their texts and the thread-local last error.
 #include <cstdio>
+#include <new>
 #include <stdexcept>
 
 #include "capi/guard.hpp"
@@ -153,50 +154,12 @@ const char *jam_status_string(jam_status code) {
 }
 
 const char *jam_stop_string(int32_t reason) {
-  switch (reason) {
-    case JAM_STOP_NONE:
-      return "none";
-    case JAM_STOP_PRESSURE:
-      return "pressure";
-    case JAM_STOP_PACKING_FRACTION:
-      return "packing_fraction";
-    case JAM_STOP_COLLISIONS:
-      return "collisions";
-    case JAM_STOP_WALL_TIME:
-      return "wall_time";
-    case JAM_STOP_CANCELLED:
-      return "cancelled";
-    case JAM_STOP_STALLED:
-      return "stalled";
-    case JAM_STOP_PRECISION:
-      return "precision";
-    case JAM_STOP_CONVERGED:
-      return "converged";
-    case JAM_STOP_LP_LIMIT:
-      return "lp_limit";
-    case JAM_STOP_SOLVER:
-      return "solver";
-    case JAM_STOP_UNJAMMED:
-      return "unjammed";
-    case JAM_STOP_TIME:
-      return "time";
-    case JAM_STOP_EVALUATIONS:
-      return "evaluations";
-    case JAM_STOP_STEPS:
-      return "steps";
-    case JAM_STOP_SADDLE:
-      return "saddle";
-    case JAM_STOP_DUALITY_GAP:
-      return "duality_gap";
-    case JAM_STOP_STRAIN:
-      return "strain";
-    case JAM_STOP_EVENT:
-      return "event";
-    case JAM_STOP_JAMMED:
-      return "jammed";
-    default:
-      return "unknown";
-  }
+  static constexpr const char *names[] = {
+      "none",      "pressure",  "packing_fraction", "collisions", "wall_time", "cancelled", "stalled",
+      "precision", "converged", "lp_limit",         "solver",     "unjammed",  "time",      "evaluations",
+      "steps",     "saddle",    "duality_gap",      "strain",     "event",     "jammed"};
+  static_assert(sizeof names / sizeof *names == JAM_STOP_JAMMED + 1, "a name for each jam_stop_reason");
+  return reason >= 0 && reason <= JAM_STOP_JAMMED ? names[reason] : "unknown";
 }
 
 const char *jam_last_error(void) { return jam::inside::last_error; }

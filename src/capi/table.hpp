@@ -1,4 +1,5 @@
-// Tables: calls whose result has several columns fill one array of shape (rows, columns).
+// Outputs of calls that give several arrays. Tables: calls whose result has several columns fill one array of shape
+// (rows, columns).
 #pragma once
 #include <algorithm>
 #include <array>
@@ -62,6 +63,21 @@ jam_status give_table(const std::vector<std::array<double, N>> &rows, int32_t co
   const Table<N> made(columns, table, table_len);
   if (made.wanted(rows.size(), needed)) made.give(rows.size(), [&](size_t k, auto &row) { row = rows[k]; });
   return JAM_OK;
+}
+
+// One of several outputs of a call: checks before anything is written, then fills; count elements are valid, the rest
+// of `expected` becomes NaN.
+inline void check_output(const void *out, size_t len, size_t expected, const char *name) {
+  if (!out && len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
+  if (out && len < expected) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, len, expected);
+}
+template <class T>
+void put_output(const std::vector<T> &data, T *out, size_t expected) {
+  if (!out) return;
+  const size_t have = data.size() < expected ? data.size() : expected;
+  for (size_t k = 0; k < have; ++k) out[k] = data[k];
+  for (size_t k = have; k < expected; ++k)
+    out[k] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
 }
 
 }  // namespace jam::inside

@@ -1,7 +1,6 @@
 // The order of the bytes of a number. Files have the lowest byte first, as most machines do.
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 
 namespace jam::inside {

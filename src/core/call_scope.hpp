@@ -3,7 +3,6 @@
 #pragma once
 #include <mutex>
 
-#include "core/bytes.hpp"
 #include "core/error.hpp"
 #include "core/monitor.hpp"
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
 #include "core/tuning.hpp"

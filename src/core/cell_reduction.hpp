@@ -1,9 +1,6 @@
 // Cell vectors as they are given, brought to the lower triangle of Cell; and other vectors of the same lattice, where a
 // search for pairs needs them or the given ones are extreme.
 #pragma once
-#include <cstdint>
-#include <vector>
-
 #include "core/packing.hpp"
 
 namespace jam::inside {

@@ -1,13 +1,11 @@
 #include "core/container.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 
 #include "core/cell_reduction.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
-#include "core/packing.hpp"
 
 namespace jam::inside {
 namespace {

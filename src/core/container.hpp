@@ -11,15 +11,11 @@
 // names the partner of a contact by j has j = -1 - w for a wall. A wall is a contact with the mirror image of the
 // sphere: h = distance / radius - 1.
 #pragma once
-#include <array>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "core/cell.hpp"
 #include "core/rng.hpp"
 #include "core/surface.hpp"
-#include "jam/jam.h"
 
 namespace jam::inside {
 

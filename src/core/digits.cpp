@@ -1,5 +1,4 @@
-// See digits.hpp.
-#include "core/digits.hpp"
+#include "core/decimal.hpp"
 
 #include <algorithm>
 #include <cmath>

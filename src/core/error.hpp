@@ -3,6 +3,8 @@
 #include <cstdarg>
 #include <cstdio>
 #include <exception>
+#include <string>
+
 #include "jam/jam.h"
 
 namespace jam::inside {
@@ -29,5 +31,14 @@ class Error : public std::exception {
   va_end(args);
   throw Error(code, text);
 }
+
+// Text by printf's rules, of any length.
+
+__attribute__((format(printf, 1, 2))) std::string sentence(const char *format, ...);
+
+// Numbers of bytes in texts.
+
+// Three digits in the unit that fits: "112 kB". Units are powers of 1000.
+std::string bytes_text(double bytes);
 
 }  // namespace jam::inside

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/error.hpp"
 #include "core/with_dimension.hpp"
 
 namespace jam::inside {

@@ -1,13 +1,8 @@
 // The state that every layer works on: spheres in a periodic cell or a container.
 #pragma once
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <vector>
-#include "core/cell.hpp"
 #include "core/container.hpp"
-#include "jam/jam.h"
 
 namespace jam::inside {
 

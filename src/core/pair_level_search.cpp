@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/pair_cutoff.hpp"
 #include "core/pair_levels.hpp"
 #include "core/tuning.hpp"
 

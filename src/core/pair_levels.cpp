@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/math.hpp"
 

@@ -1,8 +1,5 @@
 // Pairs of spheres within a cutoff, with the image (and in the MK model the quenched shift) of each.
 #pragma once
-#include <cstddef>
-#include <cstdint>
-#include <vector>
 #include "core/packing.hpp"
 
 namespace jam::inside {

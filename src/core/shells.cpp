@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/tuning.hpp"
 

@@ -1,6 +1,5 @@
 // Shells around spheres between walls: what part of them other centres can reach.
 #pragma once
-#include <vector>
 #include "core/packing.hpp"
 
 namespace jam::inside {

@@ -1,4 +1,4 @@
-#include "core/size_distribution.hpp"
+#include "core/size_laws.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,12 +1,10 @@
 #include "core/size_laws.hpp"
-#include "core/checks.hpp"
 
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <utility>
 
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
 
@@ -106,18 +104,15 @@ std::vector<SizeClass> classes_of_sieve(const double *curve, size_t rows) {
   return classes;
 }
 
+using Made = std::unique_ptr<SizeDistribution>;
 // What one law makes of its checked fields.
 struct Given {
   const Options &o;
   const double *curve;
   size_t rows;
   bool by_volume;
-  std::unique_ptr<SizeDistribution> classes(std::vector<SizeClass> c) const {
-    return classes_of_sizes(std::move(c), o.dim, by_volume);
-  }
-  std::unique_ptr<SizeDistribution> cut(std::unique_ptr<SmoothLaw> law) const {
-    return cut_law(std::move(law), o.low, o.high, o.dim, by_volume);
-  }
+  Made classes(std::vector<SizeClass> c) const { return classes_of_sizes(std::move(c), o.dim, by_volume); }
+  Made cut(std::unique_ptr<SmoothLaw> law) const { return cut_law(std::move(law), o.low, o.high, o.dim, by_volume); }
 };
 
 struct Law {
@@ -126,73 +121,27 @@ struct Law {
   int32_t usual;              // jam_size_share
   const Field *needs[4];      // NULL behind the last
   bool takes_curve, can_cut;  // can_cut: low and high may be given
-  std::unique_ptr<SizeDistribution> (*make)(const Given &);
+  Made (*make)(const Given &);
 };
-using Made = std::unique_ptr<SizeDistribution>;
-// The one table of laws. Densities of uniform, power and sieve are powers s^exponent in the law's own measure.
+// Densities of uniform, power and sieve are powers s^exponent in the law's own measure.
+Made equal_sizes(const Given &g) { return g.classes({{g.o.mean, g.o.mean, 1.0, 0.0}}); }
+Made listed_sizes(const Given &g) { return g.classes(classes_of_list(g.curve, g.rows)); }
+Made uniform_law(const Given &g) { return g.classes({{g.o.low, g.o.high, 1.0, 0.0}}); }
+Made normal_law(const Given &g) { return g.cut(std::make_unique<Normal>(g.o.mean, g.o.deviation)); }
+Made lognormal_law(const Given &g) { return g.cut(LogNormal::of(g.o.mean, g.o.deviation)); }
+Made power_law(const Given &g) { return g.classes({{g.o.low, g.o.high, 1.0, g.o.exponent}}); }
+Made weibull_law(const Given &g) { return g.cut(std::make_unique<Weibull>(g.o.scale, g.o.shape)); }
+Made sieve_curve(const Given &g) { return g.classes(classes_of_sieve(g.curve, g.rows)); }
+// The one table of laws.
 const Law laws[] = {
-    {JAM_SIZES_EQUAL,
-     "equal",
-     JAM_SHARE_NUMBER,
-     {&mean},
-     false,
-     false,
-     [](const Given &g) -> Made {
-       return g.classes({{g.o.mean, g.o.mean, 1.0, 0.0}});
-     }},
-    {JAM_SIZES_LIST,
-     "list",
-     JAM_SHARE_NUMBER,
-     {},
-     true,
-     false,
-     [](const Given &g) -> Made { return g.classes(classes_of_list(g.curve, g.rows)); }},
-    {JAM_SIZES_UNIFORM,
-     "uniform",
-     JAM_SHARE_NUMBER,
-     {&low, &high},
-     false,
-     false,
-     [](const Given &g) -> Made {
-       return g.classes({{g.o.low, g.o.high, 1.0, 0.0}});
-     }},
-    {JAM_SIZES_NORMAL,
-     "normal",
-     JAM_SHARE_NUMBER,
-     {&mean, &deviation},
-     false,
-     true,
-     [](const Given &g) -> Made { return g.cut(std::make_unique<Normal>(g.o.mean, g.o.deviation)); }},
-    {JAM_SIZES_LOGNORMAL,
-     "lognormal",
-     JAM_SHARE_NUMBER,
-     {&mean, &deviation},
-     false,
-     true,
-     [](const Given &g) -> Made { return g.cut(LogNormal::of(g.o.mean, g.o.deviation)); }},
-    {JAM_SIZES_POWER,
-     "power",
-     JAM_SHARE_NUMBER,
-     {&exponent, &low, &high},
-     false,
-     false,
-     [](const Given &g) -> Made {
-       return g.classes({{g.o.low, g.o.high, 1.0, g.o.exponent}});
-     }},
-    {JAM_SIZES_WEIBULL,
-     "weibull",
-     JAM_SHARE_VOLUME,
-     {&scale, &shape},
-     false,
-     true,
-     [](const Given &g) -> Made { return g.cut(std::make_unique<Weibull>(g.o.scale, g.o.shape)); }},
-    {JAM_SIZES_SIEVE,
-     "sieve",
-     JAM_SHARE_VOLUME,
-     {},
-     true,
-     false,
-     [](const Given &g) -> Made { return g.classes(classes_of_sieve(g.curve, g.rows)); }},
+    {JAM_SIZES_EQUAL, "equal", JAM_SHARE_NUMBER, {&mean}, false, false, equal_sizes},
+    {JAM_SIZES_LIST, "list", JAM_SHARE_NUMBER, {}, true, false, listed_sizes},
+    {JAM_SIZES_UNIFORM, "uniform", JAM_SHARE_NUMBER, {&low, &high}, false, false, uniform_law},
+    {JAM_SIZES_NORMAL, "normal", JAM_SHARE_NUMBER, {&mean, &deviation}, false, true, normal_law},
+    {JAM_SIZES_LOGNORMAL, "lognormal", JAM_SHARE_NUMBER, {&mean, &deviation}, false, true, lognormal_law},
+    {JAM_SIZES_POWER, "power", JAM_SHARE_NUMBER, {&exponent, &low, &high}, false, false, power_law},
+    {JAM_SIZES_WEIBULL, "weibull", JAM_SHARE_VOLUME, {&scale, &shape}, false, true, weibull_law},
+    {JAM_SIZES_SIEVE, "sieve", JAM_SHARE_VOLUME, {}, true, false, sieve_curve},
 };
 
 const Law &law_of(int32_t number) {

@@ -4,10 +4,8 @@
 #include <numeric>
 #include <queue>
 
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
-#include "core/packing.hpp"
 #include "core/size_laws.hpp"
 
 namespace jam::inside {
@@ -87,6 +85,8 @@ double sequential_fraction(int dim) {
   static constexpr double saturation[] = {0.5470735, 0.3841307, 0.2600781, 0.1707761, 0.109302, 0.068404, 0.0423};
   return saturation[dim - 2];
 }
+
+double jammed_fraction(int dim) { return dim == 2 ? 0.84 : 0.64 * math::pow(0.7, dim - 3); }
 
 Reach jammed_reach(int dim, const std::vector<double> &diameters) {
   std::vector<double> s = diameters;

@@ -1,8 +1,12 @@
-#include "crunch/control.hpp"
+#include "crunch/phases.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/math.hpp"
+#include "core/pair_rule.hpp"
+#include "core/size_laws.hpp"
 #include "verdict/text.hpp"
 
 namespace jam::inside {
@@ -80,6 +84,28 @@ void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std
       static_cast<double>(static_cast<int64_t>(contacts) - isostatic_contacts(stable, dim, s.out.packing.container));
   row[JAM_HISTORY_RATTLERS] = static_cast<double>(static_cast<int64_t>(coordination.size()) - stable);
   s.history.over_stable(coordination, dim, diameter_mean(s.out.packing));
+}
+
+double free_spacing(const Packing &p) {
+  return std::max(0.0, math::pow(packing_fraction(p), -1.0 / p.dim) - math::pow(jammed_fraction(p.dim), -1.0 / p.dim));
+}
+
+std::vector<double> relative_gaps(const Packing &p, const PairList &pairs) {
+  std::vector<double> gap(pairs.size());
+  double r[JAM_MAX_DIM];
+  for (size_t k = 0; k < gap.size(); ++k)
+    gap[k] = std::sqrt(pair_vector(p, pairs, k, r)) / contact_distance(p, pairs.i[k], pairs.j[k]) - 1.0;
+  return gap;
+}
+
+double contact_gap(const Packing &p) {
+  constexpr double widest = 0.5;
+  const PairList pairs = find_pairs(p, 0.0, 1.0 + widest);
+  const size_t wanted = static_cast<size_t>(p.dim) * p.n() / 2;
+  if (pairs.size() <= wanted) return widest;
+  std::vector<double> gap = relative_gaps(p, pairs);
+  std::nth_element(gap.begin(), gap.begin() + wanted, gap.end());
+  return gap[wanted];
 }
 
 }  // namespace jam::inside

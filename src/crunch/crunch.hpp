@@ -2,19 +2,18 @@
 //   packing -> [pairs -> LP -> checked answer -> safe step]* -> contact network -> polish -> certificate
 #pragma once
 #include <functional>
-#include <string>
-#include <vector>
 
-#include "core/monitor.hpp"
 #include "core/notes.hpp"
-#include "core/packing.hpp"
-#include "crunch/options.hpp"
 #include "crunch/record.hpp"
 #include "crunch/tuning.hpp"
-#include "lp/packing_lp.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {
+
+// Options of jam_crunch: defaults and what is refused.
+jam_crunch_options default_crunch_options();
+// Throws for options that make no sense and for packings that cannot be crunched.
+void check_options(const Packing &p, const jam_crunch_options &o);
 
 struct CrunchResult {
   Packing packing;          // always valid: the last good state
@@ -37,5 +36,10 @@ struct CrunchHooks {
 // attempt that is returned; its stage says where a stopped crunch begins, and where this one stopped.
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr,
                     const CrunchHooks *hooks = nullptr);
+
+// What a crunch will cost, from the particle graph and its elimination tree alone.
+
+// Memory and work of a crunch before it runs. Throws for bad options.
+[[gnu::cold]] jam_estimate_report estimate(const Packing &start, const jam_crunch_options &o);
 
 }  // namespace jam::inside

@@ -1,23 +1,18 @@
-#include "crunch/estimate.hpp"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <ctime>
 #include <limits>
 
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
-#include "core/pairs.hpp"
+#include "core/size_laws.hpp"
 #include "crunch/approach/lp_step.hpp"
-#include "crunch/options.hpp"
-#include "crunch/path/neighbours.hpp"
-#include "crunch/spacing.hpp"
+#include "crunch/crunch.hpp"
+#include "crunch/path/barrier_path.hpp"
+#include "crunch/phases.hpp"
 #include "linalg/blas.hpp"
-#include "linalg/block_cholesky.hpp"
-#include "linalg/newton_system.hpp"
 #include "linalg/tuning.hpp"
-#include "lp/working_set.hpp"
+#include "lp/interior_point.hpp"
 
 namespace jam::inside {
 namespace {
@@ -150,13 +145,13 @@ double measured_rate(int size) {
   return best;
 }
 
-struct Spread {
+struct Factors {
   double low, high;
 };
 
 // Equal disks crystallise in parts, and crystals have more contacts than unknowns: narrow LPs and decompressions follow
 // a path that says nothing of them.
-Spread spread_of(const Packing &p) {
+Factors factors_of(const Packing &p) {
   const bool alike = ratio_of_diameters(p) < T::alike;
   const PairList closed = find_pairs(p, 0.0, 1.0 + T::crystal_gap);
   const double unknowns = p.dim * static_cast<double>(p.n());
@@ -186,9 +181,9 @@ jam_estimate_report estimate(const Packing &p, const jam_crunch_options &o) {
                    0.5 * in_lp * (lp.seconds(rate, o.threads) + lp.seconds(full, o.threads));
   if (o.method != JAM_CRUNCH_SEQUENTIAL_LP) e.step_seconds += (1.0 - in_lp) * list_seconds(p);
   e.seconds = e.factorisations * e.step_seconds;
-  const Spread spread = spread_of(p);
+  const Factors over = factors_of(p);
   const double rounds = o.strain == JAM_STRAIN_NONE ? 1.0 : T::rounds_of_free_cell;
-  e.seconds_low = e.seconds * spread.low, e.seconds_high = e.seconds * spread.high * rounds;
+  e.seconds_low = e.seconds * over.low, e.seconds_high = e.seconds * over.high * rounds;
   return e;
 }
 

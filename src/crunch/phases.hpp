@@ -1,6 +1,8 @@
 // The phases of a crunch. Each returns the phase that follows.
 #pragma once
+#include "core/monitor.hpp"
 #include "crunch/state.hpp"
+#include "linalg/newton_system.hpp"
 
 namespace jam::inside {
 
@@ -50,5 +52,48 @@ bool recompress(CrunchState &s);
 Phase give_verdict(CrunchState &s, const PackingVerdict &of_contacts);
 // Narrow LPs and decompressions belong to the optimum of the wide LPs. A looser tolerance may end before it.
 bool converged(const CrunchState &s);
+
+// What every phase of a crunch does with its state: stop, begin again, report and record a step.
+
+void stop(CrunchState &s, jam_stop_reason reason, jam_status status);
+// Where the call was cancelled or its time is over: stops for that reason. True when it did.
+bool stop_if_interrupted(CrunchState &s);
+// Clears contacts and verdict of the report, because the spheres will move again.
+void forget_contacts(CrunchState &s);
+// LPs begin again with this bound: the packing was moved, or its cell is free now.
+void restart_lps(CrunchState &s, double bound);
+
+// Part of the crunch that is done: at this part of a path (NaN: off it), or after an LP with this gain.
+double part_done(const CrunchState &s, double path, double gain);
+// Calls the progress callback immediately; with `finished` it may read the details of the last step. True: stop.
+bool report_step(CrunchState &s, jam_phase phase, double gain, double step, bool finished = true);
+
+// A move that opens contacts and is no step of the path: its row, and its callback.
+void record_opening(CrunchState &s);
+// A row of the history for the move since the last row; `displacement` as in History::moved.
+HistoryRow &record_step(CrunchState &s, jam_step_phase phase, const double *displacement = nullptr);
+// Its columns of the network: so many contacts, and those of each sphere.
+void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std::vector<int32_t> &coordination);
+
+// How far a packing is from jamming.
+// By how much the mean spacing of spheres, phi^(-1/d) diameters, exceeds that of a random jammed packing: how far a
+// sphere may have to travel. 0 when denser.
+double free_spacing(const Packing &p);
+// h = r / sigma - 1 of each pair.
+std::vector<double> relative_gaps(const Packing &p, const PairList &pairs);
+// Median gap of the d n nearest pairs, the contacts to be; 0.5 when there are not as many.
+double contact_gap(const Packing &p);
+
+// The last digits: contacts closed by Newton steps on the positions and one common diameter factor, forces projected on
+// the null space of S^T.
+
+enum class PolishEnd { done, no_contacts, interrupted, open_contact, too_few, negative_force, overlap };
+
+// Changes p and contacts only when it returns done: all contacts closed to rounding, no overlap, and for a single
+// self-stress all forces positive. A contact too many that does not close with the others is dropped. Where contacts
+// still do not close, balance or push, narrow LPs find the vertex (identify.cpp).
+// The graph of `system` is replaced.
+PolishEnd polish(Packing &p, ContactNetwork &contacts, NewtonSystem &system, int threads, const Tuning &tuning,
+                 Monitor *monitor = nullptr);
 
 }  // namespace jam::inside

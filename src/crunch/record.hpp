@@ -2,10 +2,8 @@
 // callback; states that the page shows; and the stage at which another call continues.
 #pragma once
 #include <array>
-#include <cstdint>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "core/packing.hpp"
 #include "lp/packing_lp.hpp"

@@ -1,13 +1,33 @@
-// What the phases of a crunch pass to each other: data alone. control.hpp has what all phases do with it.
+// What the phases of a crunch pass to each other: data alone. phases.hpp has what all phases do with it.
 #pragma once
-#include <cstdint>
+#include <map>
 
-#include "crunch/approach/active_set.hpp"
 #include "crunch/crunch.hpp"
 #include "lp/interior_point.hpp"
 #include "verdict/verdict.hpp"
 
 namespace jam::inside {
+
+// Which rows of an LP carry force, and which spheres they touch.
+
+struct ActiveSet {
+  std::vector<size_t> rows;           // indices into the LP's pairs, ascending
+  std::vector<int32_t> coordination;  // n
+  int64_t stable = 0;                 // spheres with a force
+};
+
+// One flag a row: it carries force, or its slack is below `closed`.
+std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &answer, double closed);
+ActiveSet find_active_set(const PackingLp &lp, const LpSolution &answer, double closed);
+// Largest |s| over spheres with a force, their mean taken out along all axes but those closed by walls (bits); over all
+// spheres if no sphere has one.
+double largest_step(const LpSolution &answer, const ActiveSet &active, int dim, uint32_t closed_axes = 0);
+// The active rows as contacts of p: unit vectors, gaps, forces from the multipliers.
+ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer,
+                             const ActiveSet &active);
+// True when more rows carry force than one state of self-stress has: a crystal in the making, whose path meets one
+// saddle after the other. y: multipliers, sum 1; isostatic: d n.
+bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning);
 
 // approach: sequential LPs. barrier_path: Newton steps on the true gaps. identify: contacts, last digits, verdict.
 // narrow_lps: where these leave it open which contacts carry force. Each phase function returns the phase that follows.
@@ -57,5 +77,22 @@ struct CrunchState {
   CrunchFindings found;
   double first_gain = 0.0;  // of an LP, for the progress
 };
+
+// The report of a crunch: its end, and what it did to the packing that it was given.
+
+// Closed pairs of the start as in the test of jamming, and those that digits cannot distinguish from them. Found before
+// the work: after it the time of the call may be over.
+struct Touching {
+  std::map<std::pair<int32_t, int32_t>, int64_t> images;  // that touch, of each pair
+  int64_t total = -1;                                     // -1: not known, as the call was stopped
+};
+Touching find_touching(const Packing &start);
+
+// The final network certified, the verdict and the counters of the work.
+void report_end(CrunchState &s);
+// Out of memory, or no LP solved: the state is the last good one, without contacts. It allocates only what it must.
+void report_failure(CrunchState &s);
+// What the crunch did to the packing that it was given.
+void report_changes(Touching start, double packing_fraction_start, CrunchState &s);
 
 }  // namespace jam::inside

@@ -1,9 +1,7 @@
 #include "dynamics/dynamics.hpp"
 
-#include "core/error.hpp"
 #include "dynamics/event_driven/run.hpp"
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
-#include "dynamics/monte_carlo/monte_carlo.hpp"
 
 namespace jam::inside {
 

@@ -5,7 +5,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <string>
 
 #include "core/archive.hpp"
 #include "core/monitor.hpp"

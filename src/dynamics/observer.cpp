@@ -3,13 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/checks.hpp"
-#include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/math.hpp"
-#include "core/pair_rule.hpp"
-#include "core/pair_visit.hpp"
-#include "core/pairs.hpp"
+#include "core/pair_levels.hpp"
 #include "core/rng.hpp"
 #include "core/shells.hpp"
 

@@ -1,20 +1,18 @@
 // Checkpoint: magic, header, arrays, checksum, all as they lie in memory. A machine with the other order of bytes
 // refuses the file.
-#include "io/checkpoint.hpp"
+#include "io/files.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <vector>
 
 #include "core/byte_order.hpp"
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
-#include "core/error.hpp"
+#include "core/create.hpp"
 #include "core/limits.hpp"
 #include "core/rng.hpp"
-#include "core/validate.hpp"
 #include "io/input_file.hpp"
 #include "io/output_file.hpp"
 

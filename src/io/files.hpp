@@ -1,11 +1,6 @@
 // Files of packings and of contact networks (see jam_format and jam_contact_format in jam.h).
 #pragma once
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "core/notes.hpp"
-#include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {
@@ -49,7 +44,7 @@ struct ReadOptions {
   bool says_box() const { return box != 1.0 || !layout.cell.empty() || !layout.origin.empty(); }
 };
 
-// Goes by the content (recognise.hpp). Memory grows with the data read, never with the count in the header.
+// Goes by the content (recognise.cpp). Memory grows with the data read, never with the count in the header.
 FileContent read_file(const char *path, const ReadOptions &options = {});
 
 // What is written beside positions and diameters, by the formats that have a place for it.
@@ -75,5 +70,11 @@ void write_proof(const ProofScene &scene, const char *path);
 
 // Adds the rows of a table of two columns to `curve`. Comments stand behind #; a first line of words is a heading.
 void read_curve(const char *path, std::vector<double> &curve);
+
+// The whole state of a packing in a binary file.
+
+// beside: bytes of the results and of the unfinished work of that packing (capi/results_archive.cpp).
+void write_checkpoint(const Packing &p, const std::string &beside, const char *path);
+Packing read_checkpoint(const char *path, std::string &beside);
 
 }  // namespace jam::inside

@@ -1,5 +1,5 @@
 #include "core/error.hpp"
-#include "io/gzip.hpp"
+#include "io/input_file.hpp"
 
 namespace jam::inside {
 

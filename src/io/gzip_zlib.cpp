@@ -3,7 +3,7 @@
 #include <new>
 
 #include "core/error.hpp"
-#include "io/gzip.hpp"
+#include "io/input_file.hpp"
 #include "io/platform.hpp"
 
 namespace jam::inside {

@@ -6,9 +6,7 @@
 #include <system_error>
 
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/host_thread.hpp"
-#include "io/gzip.hpp"
 #include "io/platform.hpp"
 
 namespace jam::inside {

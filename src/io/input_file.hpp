@@ -36,4 +36,53 @@ class InputFile {
   std::unique_ptr<Unpacker> gzip_;  // NULL: the text is not packed
 };
 
+// gzip's format, by zlib. A build without zlib (JAM_ZLIB=OFF) has gzip_none.cpp, whose constructors refuse the file.
+
+// Whether this build writes gzip's format.
+bool can_pack();
+
+// One member of gzip's format after the other. `path` is for the text of errors and outlives it.
+class Unpacker {
+ public:
+  explicit Unpacker(const std::string &path);
+  ~Unpacker();
+  Unpacker(const Unpacker &) = delete;
+  Unpacker &operator=(const Unpacker &) = delete;
+  bool inside() const;  // a member has begun and has not ended
+  // Unpacks from [from, from + size) to [to, to + room): what is used of the former, and what is given of the latter.
+  struct Done {
+    size_t used, given;
+  };
+  Done unpack(const char *from, size_t size, char *to, size_t room);
+
+ private:
+  struct Stream;
+  std::unique_ptr<Stream> stream_;
+};
+
+// gzip's header has the time 0: the same text gives the same bytes.
+class Packer {
+ public:
+  explicit Packer(const std::string &path);
+  ~Packer();
+  Packer(const Packer &) = delete;
+  Packer &operator=(const Packer &) = delete;
+  // Calls put(bytes, their number) with what comes out; `finish`: no more text comes.
+  template <class Put>
+  void pack(const std::string &text, bool finish, const Put &put) {
+    begin(text, finish);
+    for (bool more = true; more;) {
+      const size_t size = next(more);
+      put(reinterpret_cast<const char *>(packed_.data()), size);
+    }
+  }
+
+ private:
+  struct Stream;
+  void begin(const std::string &text, bool finish);
+  size_t next(bool &more);
+  std::unique_ptr<Stream> stream_;
+  std::vector<unsigned char> packed_;
+};
+
 }  // namespace jam::inside

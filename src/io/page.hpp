@@ -1,10 +1,7 @@
 // The page to view: one HTML file with the packing in it. Its text and scripts are in io/page.
 #pragma once
 #include <string>
-#include <utility>
-#include <vector>
 
-#include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {

@@ -2,13 +2,10 @@
 
 #include <cmath>
 #include <cstring>
-#include <string>
 
 #include "core/byte_order.hpp"
 #include "core/error.hpp"
 #include "io/formats.hpp"
-#include "io/output_file.hpp"
-#include "io/text.hpp"
 #include "pore/balls.hpp"
 
 namespace jam::inside {

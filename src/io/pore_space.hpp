@@ -1,10 +1,9 @@
 // Files of the pore space: a mesh of the solid (STL), and an image of it (NumPy, MetaImage, VTK).
 #pragma once
-#include <cstdint>
 #include <functional>
 
+#include "pore/profile.hpp"
 #include "pore/solid_mesh.hpp"
-#include "pore/voxels.hpp"
 
 namespace jam::inside {
 

@@ -1,7 +1,5 @@
 // Dumps of LAMMPS: dump atom and dump custom as text, with radius or diameter, one frame or several.
 #include <algorithm>
-#include <array>
-#include <string>
 
 #include "io/read_helpers.hpp"
 
@@ -194,16 +192,11 @@ bool read_frame(LineReader &in, const Enclosure &given, FileContent &content) {
       if (n == 0) return true;
       const DumpColumns columns = read_columns(in, Words(words.begin() + 2, words.end()));
       read_atoms(in, n, box, columns, content);
-      const size_t d = static_cast<size_t>(content.dim);
-      if (d == 3 && box.flat && given.closes(2))
+      if (content.dim == 3 && box.flat && given.closes(2))
         in.fail(JAM_E_FORMAT, "the boundary of z is 'pp', periodic, but container and walls close it");
       content.knows_walls = box.bounded;
       content.enclosure = given;
-      if (d == 2 && (box.rows[2] != 0.0 || box.rows[5] != 0.0 || box.rows[6] != 0.0 || box.rows[7] != 0.0))
-        in.fail(JAM_E_UNSUPPORTED, "all spheres lie at z = 0, but the cell leaves that plane");
-      std::vector<double> rows;
-      for (size_t r = 0; r < d; ++r) rows.insert(rows.end(), &box.rows[3 * r], &box.rows[3 * r] + d);
-      take_cell(in, std::move(rows), content);
+      take_cell_of_lammps(in, box.rows, content);
       say_unread(content, columns.unread);
       return true;
     } else {

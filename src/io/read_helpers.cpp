@@ -1,17 +1,17 @@
 #include "io/read_helpers.hpp"
 
-#include <algorithm>
-
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 
 namespace jam::inside {
 namespace {
+
 // Characters behind the decimal point, those of an exponent too.
 size_t behind_point(std::string_view word) {
   const size_t point = word.find('.');
   return point == std::string_view::npos ? 0 : word.size() - point;
 }
+
 }  // namespace
 
 bool next_text(LineReader &in, std::string_view &line, std::vector<std::string_view> &words) {
@@ -104,6 +104,15 @@ void take_cell(const LineReader &in, std::vector<double> rows, FileContent &cont
   at_line(in, [&] { take_rows(std::move(rows), content); });
 }
 
+void take_cell_of_lammps(const LineReader &in, const std::array<double, 9> &cell, FileContent &content) {
+  const size_t d = static_cast<size_t>(content.dim);
+  if (d == 2 && (cell[2] != 0.0 || cell[5] != 0.0 || cell[6] != 0.0 || cell[7] != 0.0))
+    in.fail(JAM_E_UNSUPPORTED, "all spheres lie at z = 0, but the cell leaves that plane");
+  std::vector<double> rows;
+  for (size_t r = 0; r < d; ++r) rows.insert(rows.end(), &cell[3 * r], &cell[3 * r] + d);
+  take_cell(in, std::move(rows), content);
+}
+
 void take_rows(std::vector<double> rows, FileContent &content) {
   const size_t d = static_cast<size_t>(content.dim);
   bool cube = true;
@@ -164,6 +173,43 @@ void take_plane(const std::vector<double> &positions, double low, double high, F
   content.dim = 2;
   for (size_t k = 0; k < positions.size(); k += 3)
     content.position.insert(content.position.end(), {positions[k], positions[k + 1]});
+}
+
+std::string plain_list(std::string_view value) {
+  std::string plain(value);
+  if (plain.compare(0, 5, "_JSON") == 0) plain.erase(0, 5);
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+  return plain;
+}
+
+bool is_true(std::string_view word) {
+  const std::string w = lower(word);
+  return w == "t" || w == "true" || w == "1";
+}
+
+size_t read_container(const LineReader &in, CommentKeys &keys, Enclosure &enclosure) {
+  std::string_view value;
+  const bool named = keys.find("container", value);
+  if (named) enclosure.container = container_of_word(std::string(value).c_str());
+  if (enclosure.container < 0)
+    in.fail(JAM_E_FORMAT, "container is '%s', known are %s", shown(value).c_str(), container_words().c_str());
+  if (!keys.find("walls", value)) {  // walls alone are those of a brick
+    if (!named) return 0;
+    in.fail(JAM_E_FORMAT, "container= without walls=, a word T or F for each axis");
+  }
+  const std::string plain = plain_list(value);
+  std::vector<std::string_view> words;
+  split(plain, words);
+  if (words.empty() || words.size() > JAM_MAX_DIM)
+    in.fail(JAM_E_FORMAT, "walls has %zu words, it must have one for each axis, at most %d", words.size(), JAM_MAX_DIM);
+  for (size_t c = 0; c < words.size(); ++c) {
+    if (is_true(words[c]))
+      enclosure.walls |= 1 << c;
+    else if (const std::string w = lower(words[c]); w != "f" && w != "false" && w != "0")
+      in.fail(JAM_E_FORMAT, "walls='%s': a word for each axis must be T or F", shown(value).c_str());
+  }
+  return words.size();
 }
 
 }  // namespace jam::inside

@@ -1,10 +1,8 @@
 // LAMMPS data files of the atom styles that have diameters.
 #include <algorithm>
-#include <array>
-#include <string>
 
-#include "io/comment_keys.hpp"
-#include "io/lammps.hpp"
+#include "io/formats.hpp"
+#include "io/read_helpers.hpp"
 
 namespace jam::inside {
 namespace {
@@ -83,34 +81,12 @@ size_t take_header(const LineReader &in, const Words &words, Header &header) {
 }
 
 bool is_section(const Words &words) {
-  static constexpr std::string_view names[] = {"Atoms",
-                                               "Velocities",
-                                               "Masses",
-                                               "Ellipsoids",
-                                               "Lines",
-                                               "Triangles",
-                                               "Bodies",
-                                               "Bonds",
-                                               "Angles",
-                                               "Dihedrals",
-                                               "Impropers",
-                                               "Pair",
-                                               "PairIJ",
-                                               "Bond",
-                                               "Angle",
-                                               "Dihedral",
-                                               "Improper",
-                                               "Atom",
-                                               "BondBond",
-                                               "BondAngle",
-                                               "AngleAngle",
-                                               "AngleAngleTorsion",
-                                               "MiddleBondTorsion",
-                                               "EndBondTorsion",
-                                               "AngleTorsion",
-                                               "BondBond13",
-                                               "CMAP"};
-  return is_one_of(words[0], names) && (words.size() == 1 || !is_number(words[1]));
+  static constexpr std::string_view names =
+      " Atoms Velocities Masses Ellipsoids Lines Triangles Bodies Bonds Angles Dihedrals Impropers Pair PairIJ Bond "
+      "Angle Dihedral Improper Atom BondBond BondAngle AngleAngle AngleAngleTorsion MiddleBondTorsion EndBondTorsion "
+      "AngleTorsion BondBond13 CMAP ";
+  const std::string name = " " + std::string(words[0]) + " ";
+  return names.find(name) != names.npos && (words.size() == 1 || !is_number(words[1]));
 }
 
 // Atom styles whose spheres have diameters: the columns of a row without image counts, and where it has what.
@@ -233,14 +209,9 @@ void make_content(const LineReader &in, Header &header, const std::vector<Atom> 
                content);
   else
     take_plane(position, low, low + cell[8], content);
-  const size_t d = static_cast<size_t>(content.dim);
   measure_from_corner(&header.low[0], content);
   content.knows_origin = true;
-  if (d == 2 && (cell[6] != 0.0 || cell[7] != 0.0))
-    in.fail(JAM_E_UNSUPPORTED, "all spheres lie at z = 0, but the cell leaves that plane");
-  std::vector<double> rows;
-  for (size_t r = 0; r < d; ++r) rows.insert(rows.end(), &cell[3 * r], &cell[3 * r] + d);
-  take_cell(in, std::move(rows), content);
+  take_cell_of_lammps(in, cell, content);
 }
 
 // Skips the rows of a section; true with the name of the next one in `line` and `words`.

@@ -1,5 +1,4 @@
 // Plain text: ours, and that of the code of Torquato and Jiao, which has cell vectors behind the diameter.
-
 #include "io/read_helpers.hpp"
 
 namespace jam::inside {

@@ -1,8 +1,8 @@
 // Tables of columns: blanks or commas part them, names are on the first line, in a comment, or nowhere.
 #include <algorithm>
 
+#include "io/formats.hpp"
 #include "io/read_helpers.hpp"
-#include "io/recognise.hpp"
 
 namespace jam::inside {
 namespace {

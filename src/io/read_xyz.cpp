@@ -1,8 +1,7 @@
 // Extended XYZ, one frame or several.
 #include <algorithm>
-#include <string>
 
-#include "io/comment_keys.hpp"
+#include "io/read_helpers.hpp"
 
 namespace jam::inside {
 namespace {

@@ -1,4 +1,4 @@
-#include "io/recognise.hpp"
+#include "io/formats.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,7 @@
 // Lines and numbers, the same in every locale of the host program.
 #pragma once
 #include <cstdint>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "io/input_file.hpp"
 #include "jam/jam.h"

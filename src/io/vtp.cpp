@@ -2,18 +2,9 @@
 
 #include <numeric>
 
-#include "core/byte_order.hpp"
 #include "io/text.hpp"
 
 namespace jam::inside {
-
-template <class T>
-VtpFile::Array VtpFile::array(const char *name, const std::vector<T> &values, int components) {
-  Array made{name, std::is_integral<T>::value, components, std::string(values.size() * sizeof(T), '\0')};
-  const char *memory = reinterpret_cast<const char *>(values.data());
-  for (size_t k = 0; k < made.bytes.size(); ++k) made.bytes[k] = memory[byte_in_memory<T>(k)];
-  return made;
-}
 
 VtpFile::VtpFile(std::vector<double> points, int cell_size)
     : points_(points.size() / 3), cell_size_(static_cast<size_t>(cell_size)), place_(array("Points", points, 3)) {
@@ -22,19 +13,6 @@ VtpFile::VtpFile(std::vector<double> points, int cell_size)
   for (size_t k = 0; k < end.size(); ++k) end[k] = static_cast<int64_t>((k + 1) * cell_size_);
   connectivity_ = array("connectivity", point, 1);
   offsets_ = array("offsets", end, 1);
-}
-
-void VtpFile::add_point_data(const char *name, std::vector<double> values) {
-  point_data_.push_back(array(name, values, 1));
-}
-void VtpFile::add_point_data(const char *name, std::vector<int64_t> values) {
-  point_data_.push_back(array(name, values, 1));
-}
-void VtpFile::add_cell_data(const char *name, std::vector<double> values) {
-  cell_data_.push_back(array(name, values, 1));
-}
-void VtpFile::add_cell_data(const char *name, std::vector<int64_t> values) {
-  cell_data_.push_back(array(name, values, 1));
 }
 
 // VTK writes text as the numbers of its characters, with 0 at the end.

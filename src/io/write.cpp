@@ -1,11 +1,6 @@
-#include "core/checks.hpp"
 #include "core/limits.hpp"
-#include "io/files.hpp"
 #include "io/formats.hpp"
-#include "io/lammps.hpp"
-#include "io/text.hpp"
 #include "io/vtp.hpp"
-#include "io/writers.hpp"
 
 namespace jam::inside {
 

@@ -1,16 +1,11 @@
 // Contact networks as files: a table, a LAMMPS dump local, lines for ParaView.
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/checks.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
-#include "io/files.hpp"
 #include "io/formats.hpp"
-#include "io/lammps.hpp"
-#include "io/text.hpp"
 #include "io/vtp.hpp"
-#include "io/writers.hpp"
 
 namespace jam::inside {
 namespace {

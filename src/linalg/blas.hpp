@@ -2,7 +2,6 @@
 // blas/builtin.cpp has loops of its own, the default, blas/fortran.cpp calls a BLAS library. Matrices are stored by
 // columns; ld: the distance of two columns. L is lower triangular, and what is above its diagonal is never read.
 #pragma once
-#include <cstddef>
 #include <memory>
 
 namespace jam::inside {

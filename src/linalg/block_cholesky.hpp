@@ -2,15 +2,44 @@
 // Multifrontal on supernodes (Duff and Reid, ACM Trans. Math. Softw. 9, 302 (1983)): order the particle graph,
 // eliminate supernode by supernode on dense fronts with BLAS-3, hand each front's Schur complement to its parent.
 #pragma once
-#include <cstddef>
-#include <cstdint>
-#include <vector>
+#include <memory>
 
-#include "linalg/ordering.hpp"
-#include "linalg/scratch_buffer.hpp"
+#include "linalg/block_matrix.hpp"
 #include "linalg/workers.hpp"
 
 namespace jam::inside {
+
+// Room for numbers whose old values are not needed.
+
+// Doubles, or as many floats in half the room, that are written before they are read. Nothing is cleared, since
+// gigabytes take seconds. The old block goes before the new one comes. A new one is an eighth larger than asked, so
+// that a list with a few pairs more fits into it. Pages beyond what was requested stay untouched.
+class ScratchBuffer {
+ public:
+  void need(size_t size) {
+    if (size <= capacity_) return;
+    release();
+    memory_.reset(new unsigned char[(size + size / 8) * sizeof(double)]);
+    capacity_ = size + size / 8;
+  }
+  void release() {
+    memory_.reset();
+    capacity_ = 0;
+  }
+  template <class Real>
+  Real *as() {
+    return reinterpret_cast<Real *>(memory_.get());
+  }
+  template <class Real>
+  const Real *as() const {
+    return reinterpret_cast<const Real *>(memory_.get());
+  }
+  size_t capacity() const { return capacity_; }  // in doubles
+
+ private:
+  std::unique_ptr<unsigned char[]> memory_;
+  size_t capacity_ = 0;
+};
 
 enum class Precision { full, single };  // doubles or floats
 
@@ -146,6 +175,31 @@ class BlockCholesky {
   std::vector<Stack> stacks_;                   // of each worker
   size_t largest_below_ = 0, value_count_ = 0, stack_count_ = 0, kept_count_ = 0;
   size_t subtree_need_[2] = {}, top_need_[2] = {};  // of stacks; the first one is that of the top, too
+};
+
+// Sparse Cholesky of a block matrix plus a multiple of the unit matrix.
+
+class ShiftedFactor {
+ public:
+  explicit ShiftedFactor(const BlockMatrix &m);  // keeps a reference to m; its pattern is ordered once, its
+                                                 // values are read again by every factorise
+  ~ShiftedFactor();
+  // Factorises m + shift; false when that is not positive definite.
+  bool factorise(double shift);
+  // The smallest shift of start * 10^k that gives a positive definite matrix; JAM_E_SOLVER past the norm of m.
+  void factorise_from(double start);
+  double shift() const { return shift_; }
+  void solve(double *x) const { solve_many(x, 1); }  // x := (m + shift)^-1 x
+  void solve_many(double *x, int count) const;       // count vectors one after the other
+  size_t rows() const { return m_.rows(); }
+  using Size = BlockCholesky::AbsoluteSize;
+  Size size() const;
+
+ private:
+  struct Impl;
+  const BlockMatrix &m_;
+  std::unique_ptr<Impl> impl_;
+  double shift_ = 0.0;
 };
 
 }  // namespace jam::inside

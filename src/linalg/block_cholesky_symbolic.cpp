@@ -1,11 +1,9 @@
 // Symbolic part: elimination tree, supernodes, where every block goes, who works on what.
 #include <algorithm>
-#include <numeric>
 
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
-#include "linalg/ordering.hpp"
+#include "linalg/graph.hpp"
 #include "linalg/tuning.hpp"
 
 namespace jam::inside {

@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 
-#include "core/call_scope.hpp"
 #include "linalg/blas.hpp"
-#include "linalg/report_while.hpp"
 #include "linalg/tuning.hpp"
 
 namespace jam::inside {

@@ -1,6 +1,12 @@
 // Dense kernels on the front of a supernode, a column-major panel whose first rows are its own columns. Real: double or
 // float.
 #pragma once
+#include <chrono>
+#include <future>
+#include <system_error>
+
+#include "core/call_scope.hpp"
+#include "core/host_environment.hpp"
 #include "linalg/workers.hpp"
 
 namespace jam::inside {
@@ -28,5 +34,25 @@ void panel_forward(const Real *panel, int ld, int rows, int columns, Real *top, 
 template <class Real>
 void panel_backward(const Real *panel, int ld, int rows, int columns, Real *top, int ldt, const Real *below, int ldb,
                     int nrhs, Workers &workers);
+
+// Long work during which a callback is called.
+
+// Runs work(), which must not throw and cannot ask the monitor by itself, on another thread, while this one calls the
+// callback. The work is the same, so are the bits. A call that is cancelled is left when the work has ended.
+template <class Work>
+void report_while(const Work &work) {
+  constexpr std::chrono::milliseconds between_looks(20);
+  if (!CallScope::has_callback()) return work();
+  std::future<void> done;
+  try {
+    done = std::async(std::launch::async, [&work, host = OwnEnvironment::host()] {
+      const OwnEnvironment of_call(host);
+      work();
+    });
+  } catch (const std::system_error &) {
+    return work();
+  }
+  while (done.wait_for(between_looks) != std::future_status::ready) CallScope::look();
+}
 
 }  // namespace jam::inside

@@ -8,20 +8,39 @@
 // that of a pair is; a round wall curves inward from its tangent: crunch/approach/lp_step.cpp. Multipliers y_e =
 // lambda_e sigma_e^2 then obey sum_e y_e = 1 and sum_j y_e a_e = 0 on every particle. In a free cell strain amplitudes
 // e_k join, within the same bound: w_e gets sum_k b_ek e_k with b_ek = 2 r_ij . (B_k r_ij) / sigma_ij^2, B_k from
-// lp/strain.hpp. Then also sum_e y_e b_ek = 0 (Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139
+// StrainBasis. Then also sum_e y_e b_ek = 0 (Donev, Torquato, Stillinger, Connelly, J. Comput. Phys. 197, 139
 // (2004)).
 #pragma once
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "core/monitor.hpp"
 #include "core/pairs.hpp"
 #include "linalg/pair_products.hpp"
-#include "lp/strain.hpp"
 #include "lp/tuning.hpp"
 
 namespace jam::inside {
+
+// Strains of a free cell that a linear program may choose: r -> (1 + E) r with E upper-triangular, so that the cell
+// stays lower-triangular, and traceless, because growth of all diameters already is a change of volume. Axes that walls
+// close keep their length and their direction.
+struct StrainBasis {
+  int dim = 0;
+  std::vector<double> matrices;  // (count, dim, dim)
+  int count() const { return dim ? static_cast<int>(matrices.size()) / (dim * dim) : 0; }
+};
+
+// Which components of the cell may change along these axes (bits): the edges a_cc, the tilts a_ck, or both.
+StrainBasis strain_basis(int dim, bool edges, bool tilts, uint32_t axes = ~0u);
+// An option of a call at fixed volume: JAM_STRAIN_NONE .. JAM_STRAIN_FREE.
+void check_strain(int32_t strain, const char *call);
+// Largest part of a strain (dim, dim) that leaves half of each edge. In a thin cell that is far from jammed the bound
+// of an LP lets several amplitudes shorten one edge, by more than there is of it.
+double strain_part(int dim, const std::vector<double> &strain);
+// E = sum_k amplitude_k B_k, (dim, dim).
+std::vector<double> strain_matrix(const StrainBasis &basis, const std::vector<double> &amplitude, double scale);
+// r . (B_k r) of every pair, times scale_e: (pairs, count).
+std::vector<double> strain_rows(const StrainBasis &basis, const std::vector<double> &vectors,
+                                const std::vector<double> &scale);
 
 struct PackingLp {
   int dim = 3;

@@ -1,4 +1,4 @@
-#include "network/central_path.hpp"
+#include "network/stress_cone.hpp"
 
 #include <algorithm>
 #include <cmath>

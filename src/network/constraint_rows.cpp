@@ -1,25 +1,16 @@
 #include "network/constraint_rows.hpp"
-#include "core/call_scope.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 
-#include "linalg/shifted_factor.hpp"
+#include "core/call_scope.hpp"
+#include "linalg/dot.hpp"
+#include "network/hessian.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {
-namespace {
-
-double norm(const std::vector<double> &x) {
-  double s = 0.0;
-  for (const double v : x) s += v * v;
-  return std::sqrt(s);
-}
-
-}  // namespace
 
 std::vector<double> traceless_basis(int d, uint32_t axes) {
   std::vector<double> b;

@@ -1,12 +1,7 @@
 // The rows of a jamming test, A = [S E]: relative normal displacement of every contact from displacements of the nodes
 // and, when the cell may change its shape, from a traceless symmetric strain; and linear systems with A^T D A.
 #pragma once
-#include <memory>
-#include <vector>
-
-#include "core/call_scope.hpp"
-#include "linalg/shifted_factor.hpp"
-#include "network/hessian.hpp"
+#include "linalg/block_cholesky.hpp"
 #include "network/rigidity_matrix.hpp"
 
 namespace jam::inside {

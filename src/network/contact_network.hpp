@@ -1,11 +1,9 @@
 // The contact network: contacts between force-carrying spheres, their unit vectors, gaps and forces.
 #pragma once
-#include <cstdint>
 #include <utility>
-#include <vector>
 
-#include "core/packing.hpp"
 #include "core/pairs.hpp"
+#include "jam/jam.h"
 
 namespace jam::inside {
 
@@ -68,5 +66,23 @@ class ContactLookup {
 
 // Only those that are `on`, one flag a contact.
 ContactNetwork subset(const ContactNetwork &net, const std::vector<char> &on, int dim);
+
+// Contacts of a sphere with its own image that a network does not list. In a fixed cell they hold no motion, and the
+// cell does not determine their force, so a crunch and contacts from geometry omit them. Copies of the cell and
+// strains of it move them: there they are contacts as any other.
+
+// Those with gaps below `limit`, without forces.
+ContactNetwork unlisted_own_images(const Packing &p, const ContactNetwork &net, double limit);
+// Those with gaps of closed contacts, or of the widest contact of the network. Soft spheres touch by overlaps alone,
+// and their networks hold all of these.
+ContactNetwork unlisted_own_images(const Packing &p, const ContactNetwork &net);
+
+// JAM_E_UNSUPPORTED for a quantity that would be computed without the first of `own`.
+void refuse_own_images(const ContactNetwork &own, const char *quantity);
+
+// The certificate: everything in the report that follows from positions, diameters, contacts and forces alone.
+
+// free_cell: the gaps of spheres and their own images count too.
+void certify(const Packing &p, const ContactNetwork &contacts, jam_crunch_report &report, bool free_cell = false);
 
 }  // namespace jam::inside

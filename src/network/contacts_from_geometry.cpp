@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
+
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "network/rattlers.hpp"
+#include "network/self_stress.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {
@@ -205,6 +207,18 @@ jam_status status_of(const GeometryResult &found, Verdict as_it_is, const GapRes
   return found.report.self_stresses > 1 || !found.clear || found.answer_if_closed == Verdict::undecided || wide_gaps
              ? JAM_AMBIGUOUS
              : JAM_OK;
+}
+
+ContactNetwork contacts_by_distance(const Packing &p, double gap) {
+  if (!(gap > 0.0 && gap <= 1.0)) fail(JAM_E_ARGUMENT, "gap is %g, it must be above 0 and at most 1", gap);
+  ContactNetwork net;
+  const PairList near = find_pairs(p, 0.0, 1.0 + gap);
+  for (size_t k = 0; k < near.size(); ++k) add_contact(p, near, k, net);
+  net.force.assign(net.size(), std::numeric_limits<double>::quiet_NaN());
+  net.coordination.assign(p.n(), 0);
+  for (size_t k = 0; k < net.size(); ++k)
+    for_spheres(net.pairs.i[k], net.pairs.j[k], [&](int32_t i) { ++net.coordination[static_cast<size_t>(i)]; });
+  return net;
 }
 
 }  // namespace jam::inside

@@ -3,7 +3,6 @@
 #include "network/contact_network.hpp"
 #include "network/resolution.hpp"
 #include "network/rigidity_test.hpp"
-#include "network/self_stress.hpp"
 
 namespace jam::inside {
 
@@ -21,5 +20,11 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
 // Whether these are the contacts of the packing, whose verdict with gaps as they are is as_it_is: JAM_OK,
 // JAM_AMBIGUOUS, JAM_NOT_JAMMED.
 jam_status status_of(const GeometryResult &found, Verdict as_it_is, const GapResolution &resolution, const Packing &p);
+
+// Contacts by distance alone: of beds under weight and friction, whose contact forces do not balance as those of
+// frictionless spheres do.
+
+// All pairs with h < gap, every image, and walls; forces are NaN.
+ContactNetwork contacts_by_distance(const Packing &p, double gap);
 
 }  // namespace jam::inside

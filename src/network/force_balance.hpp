@@ -1,12 +1,8 @@
 // Linear algebra on a contact network: which motion changes its gaps in a given way, which forces on it balance. One
 // row a_k a contact; of a motion it gives a_k . (s_i - s_j) - g.
 #pragma once
-#include <vector>
-
-#include "core/packing.hpp"
 #include "linalg/newton_system.hpp"
 #include "network/contact_network.hpp"
-#include "network/tuning.hpp"
 
 namespace jam::inside {
 

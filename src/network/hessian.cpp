@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include "core/checks.hpp"
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
 

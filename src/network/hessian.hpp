@@ -1,7 +1,7 @@
 // Hessians of a contact network: S~^T S~ with a stiffness per contact, and the pre-stress part.
 #pragma once
-#include <vector>
 #include "jam/jam.h"
+#include "linalg/block_matrix.hpp"
 #include "network/rigidity_matrix.hpp"
 
 namespace jam::inside {

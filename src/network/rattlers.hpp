@@ -4,8 +4,6 @@
 // on the whole network.
 #pragma once
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include "core/container.hpp"
 

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "core/digits.hpp"
+#include "core/decimal.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"

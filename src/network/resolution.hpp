@@ -5,8 +5,6 @@
 // spheres by up to sqrt(d) step / 2, so the distance of a contact is wrong by up to sqrt(d) step. The same bound is
 // used for rounded diameters (by step) and cell vectors (by sqrt(d) step / 2).
 #pragma once
-#include <cstdint>
-
 #include "core/packing.hpp"
 
 namespace jam::inside {

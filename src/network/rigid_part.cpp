@@ -1,9 +1,7 @@
-#include "network/rigid_part.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "network/softest_modes.hpp"
+#include "network/flex.hpp"
 
 namespace jam::inside {
 namespace {

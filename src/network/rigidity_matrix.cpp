@@ -1,12 +1,14 @@
 #include "network/rigidity_matrix.hpp"
-#include "core/error.hpp"
-#include "core/pair_rule.hpp"
-#include "linalg/pair_products.hpp"
-#include "network/tuning.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/error.hpp"
+#include "core/pair_rule.hpp"
+#include "linalg/dot.hpp"
+#include "linalg/pair_products.hpp"
+#include "network/tuning.hpp"
 
 namespace jam::inside {
 namespace {
@@ -21,15 +23,10 @@ void take_out(const std::vector<double> &v, double *x) {
 void orthonormalise(std::vector<std::vector<double>> &vectors) {
   std::vector<std::vector<double>> kept;
   for (std::vector<double> &v : vectors) {
-    const auto length = [&v] {
-      double sum = 0.0;
-      for (const double x : v) sum += x * x;
-      return std::sqrt(sum);
-    };
-    const double before = length();
+    const double before = norm(v);
     for (int twice = 0; twice < 2; ++twice)
       for (const std::vector<double> &q : kept) take_out(q, v.data());
-    const double after = length();
+    const double after = norm(v);
     if (!(after > RigidityTuning::no_rotation * before)) continue;
     for (double &x : v) x /= after;
     kept.push_back(std::move(v));
@@ -187,15 +184,10 @@ void apply_equilibrium(const RigidityMatrix &g, const double *f, double *y) {
 namespace {
 // Largest |sum_j f_ij n_ij| of the net forces y (spheres, dim), over the mean of |f|.
 double over_mean_force(int dim, const std::vector<double> &y, const double *f, size_t contacts) {
-  double worst = 0.0, mean = 0.0;
-  for (size_t i = 0; i < y.size(); i += static_cast<size_t>(dim)) {
-    double s = 0.0;
-    for (int c = 0; c < dim; ++c) s += y[i + c] * y[i + c];
-    worst = std::max(worst, s);
-  }
+  double mean = 0.0;
   for (size_t k = 0; k < contacts; ++k) mean += std::fabs(f[k]);
   mean /= static_cast<double>(contacts);
-  return mean > 0.0 ? std::sqrt(worst) / mean : 0.0;
+  return mean > 0.0 ? std::sqrt(largest_squared(y, y.size() / static_cast<size_t>(dim), dim)) / mean : 0.0;
 }
 }  // namespace
 

@@ -1,11 +1,6 @@
 // The rigidity matrix S of a contact network: one row a contact, d columns a force-carrying sphere. Row k holds n_ij on
 // sphere i and -n_ij on sphere j. A wall does not move: its row holds n_ij on sphere i alone.
 #pragma once
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-#include "core/packing.hpp"
-#include "linalg/block_matrix.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {

@@ -4,12 +4,7 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
-#include "network/curvature_test.hpp"
 #include "network/flex.hpp"
-#include "network/rattlers.hpp"
-#include "network/rigid_part.hpp"
-#include "network/softest_modes.hpp"
-#include "network/stress_cone.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {

@@ -19,10 +19,9 @@
 // matter.
 #pragma once
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "network/rigidity_matrix.hpp"
+#include "network/stress_cone.hpp"
 
 namespace jam::inside {
 
@@ -46,7 +45,7 @@ struct RigidityResult {
   int64_t self_stresses = 0;        // states of self-stress on K+
   int64_t flexes = 0;            // motions of B with S v = 0 on K+ beyond symmetries; 0 without a stress. Of a jammed
                                  // packing the curvature of a round wall stabilises them
-  int64_t slides = 0;            // of these flexes, if no other flex is free (slides.hpp)
+  int64_t slides = 0;            // of these flexes, if no other flex is free (flex.hpp)
   int64_t undercoordinated = 0;  // spheres of B with d contacts of K+ or fewer
   // Smallest eigenvalue on K+ of S^T S of motions that are neither symmetries nor flexes, with strains in the strict
   // test and where own images alone hold a sphere; 0 where there is no other motion.
@@ -61,5 +60,25 @@ struct RigidityResult {
   bool opens_clearly(double h) const { return opening > std::sqrt(h); }
 };
 RigidityResult test_rigidity(const RigidityMatrix &contacts, Jamming kind);
+
+// Whether the curvature of a round wall holds the flexes of a network with a positive stress.
+
+// carrying: K+ of `out`, with its forces and flexes. The first flex becomes that which curvature holds least.
+void test_prestress_stability(const RigidityMatrix &carrying, const std::vector<double> &force,
+                              std::vector<std::vector<double>> &flexes, RigidityResult &out);
+
+// Whether forces times second derivatives of distances are positive along a motion of the nodes of the matrix of which
+// `carrying` is a part, a flex of that part.
+bool opens_by_curvature(const RigidityMatrix &carrying, const std::vector<double> &force,
+                        const std::vector<double> &motion);
+
+// Jamming from a part of the contacts: a set K with a positive self-stress whose rows hold their spheres B rigidly.
+// B then balances any load, so that every contact within B carries force too, however weak. The rest is tested with B
+// as one body. This decides networks with forces of 1e-8 of the mean, where no certificate of all contacts at once
+// is above rounding.
+
+// sub: contacts of spheres that may carry force. cone: undecided, with its positive set. False: K is not rigid. True:
+// the verdict on sub is in `out`, its flags, forces and flex on contacts and nodes of sub.
+bool test_from_rigid_part(const RigidityMatrix &sub, const StressCone &cone, Jamming kind, RigidityResult &out);
 
 }  // namespace jam::inside

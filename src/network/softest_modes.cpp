@@ -1,4 +1,4 @@
-#include "network/softest_modes.hpp"
+#include "network/flex.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>

@@ -6,7 +6,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/rng.hpp"
-#include "network/central_path.hpp"
+#include "linalg/dot.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {
@@ -156,8 +156,8 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
       x[rows.g.unknowns() + q] -= back[sub.unknowns() + q] * rows.length / kept.length;
     rows.multiply(x.data(), y.data());
   }
-  double size = 0.0, least = std::numeric_limits<double>::infinity(), closed = 0.0;
-  for (const double v : x) size = std::max(size, std::fabs(v));
+  const double size = largest_entry(x);
+  double least = std::numeric_limits<double>::infinity(), closed = 0.0;
   for (size_t k = 0; k < m; ++k)
     if (out.carrying[k])
       closed = std::max(closed, std::fabs(y[k]));
@@ -172,8 +172,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
 double least_opening(const ConstraintRows &rows, const std::vector<double> &x) {
   std::vector<double> y(rows.rows());
   rows.multiply(x.data(), y.data());
-  double size = 0.0;
-  for (const double v : x) size = std::max(size, std::fabs(v));
+  const double size = largest_entry(x);
   return size > 0.0 ? *std::min_element(y.begin(), y.end()) / size : 0.0;
 }
 

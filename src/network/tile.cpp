@@ -8,7 +8,6 @@
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/create.hpp"
-#include "core/error.hpp"
 #include "core/limits.hpp"
 
 namespace jam::inside {

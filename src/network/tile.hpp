@@ -4,10 +4,7 @@
 // copy k of i and copy (k - s) mod count of j; what the modulus takes off is a vector of the new lattice.
 #pragma once
 #include <array>
-#include <cstdint>
-#include <vector>
 
-#include "core/packing.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {

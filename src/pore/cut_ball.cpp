@@ -2,7 +2,7 @@
 // the side of the face on which the centre lies. The foot of the perpendicular on the face divides a cone further, into
 // wedges over the edges and those into right-angled ones, whose volumes are elementary: Strobl, Formella and Poeschel,
 // J. Comput. Phys. 311, 158 (2016), have the same pieces.
-#include "pore/cut_ball.hpp"
+#include "pore/solid.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,8 @@
-#include "pore/joints.hpp"
-
 #include <algorithm>
 #include <cmath>
 
-#include "core/checks.hpp"
-#include "core/math.hpp"
-#include "pore/images.hpp"
+#include "core/limits.hpp"
 #include "pore/profile.hpp"
-#include "pore/solid.hpp"
 #include "pore/solid_mesh.hpp"
 
 namespace jam::inside {

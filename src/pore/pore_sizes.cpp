@@ -1,4 +1,4 @@
-#include "pore/pore_sizes.hpp"
+#include "pore/profile.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/rng.hpp"
-#include "jam/jam.h"
-#include "pore/balls.hpp"
-#include "pore/touching_spheres.hpp"
 #include "pore/tube_spheres.hpp"
-#include "pore/tuning.hpp"
 
 namespace jam::inside {
 namespace {

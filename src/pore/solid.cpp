@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include "core/pairs.hpp"
 
 namespace jam::inside {
 namespace {

@@ -5,11 +5,7 @@
 #include <utility>
 
 #include "core/call_scope.hpp"
-#include "core/checks.hpp"
-#include "core/math.hpp"
-#include "pore/clipped.hpp"
-#include "pore/images.hpp"
-#include "pore/joints.hpp"
+#include "core/limits.hpp"
 #include "pore/sphere_hull.hpp"
 #include "pore/tuning.hpp"
 

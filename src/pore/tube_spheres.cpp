@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "core/math.hpp"
-#include "pore/tuning.hpp"
 
 namespace jam::inside {
 namespace {

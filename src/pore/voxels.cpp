@@ -1,10 +1,10 @@
-#include "pore/voxels.hpp"
+#include "pore/profile.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/call_scope.hpp"
-#include "core/checks.hpp"
+#include "core/limits.hpp"
 #include "pore/tuning.hpp"
 
 namespace jam::inside {

@@ -7,9 +7,7 @@
 #include "core/call_scope.hpp"
 #include "linalg/dot.hpp"
 #include "network/rigidity_test.hpp"
-#include "proof/free_rattler.hpp"
 #include "proof/newton.hpp"
-#include "proof/refined_lp.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam::inside {
@@ -17,12 +15,6 @@ namespace {
 
 void add(std::vector<double> &x, double factor, const std::vector<double> &y) {
   for (size_t k = 0; k < x.size(); ++k) x[k] += factor * y[k];
-}
-
-double largest(const std::vector<double> &x) {
-  double most = 0.0;
-  for (const double v : x) most = std::max(most, std::fabs(v));
-  return most;
 }
 
 // The states of self-stress of all contacts, less the directions that have been taken out of them.
@@ -66,9 +58,9 @@ std::vector<char> closing_together(const ProofScene &s, const ProofEquations &e,
   States states(s, e, normal);
   states.project(r);
   states.take_out(e.sigma2, r);  // the scale of forces stays
-  for (const double end = proof_tuning::vanishing * largest(r); largest(r) > end;) {
+  for (const double end = proof_tuning::vanishing * largest_entry(r); largest_entry(r) > end;) {
     CallScope::look();
-    const double noise = proof_tuning::vanishing * largest(r);
+    const double noise = proof_tuning::vanishing * largest_entry(r);
     size_t first = s.contacts();
     for (size_t c = 0; c < s.contacts(); ++c)
       if (on[c] && r[c] > noise && (first == s.contacts() || force[c] * r[first] < force[first] * r[c])) first = c;
@@ -102,8 +94,7 @@ RigidityMatrix rows_of(const ProofScene &s) {
   if (s.container) take_symmetries(s.container, s.high.data(), g);
   g.curved = 0;  // rows alone count
   for (size_t c = 0; c < s.contacts(); ++c) {
-    double square = 0.0;
-    for (int k = 0; k < s.dim; ++k) square += e.row[c * s.dim + k] * e.row[c * s.dim + k];
+    const double square = squared(&e.row[c * s.dim], s.dim);
     for (int k = 0; k < s.dim; ++k) g.normal.push_back(e.row[c * s.dim + k] / std::sqrt(square));
     const double part = s.wall(c) ? 0.5 : 1.0;  // of the mirror image's distance
     const double length = 0.5 * std::sqrt(square), sigma2 = s.sigma_squared(c).value();
@@ -149,7 +140,7 @@ enum class Round { closed, changed, stuck };
 Round exchange_once(ProofScene &s) {
   ProofEquations e = evaluate(s);
   if (!approach_closure(s, e)) return Round::stuck;
-  if (largest(e.f) > proof_tuning::closed) {
+  if (largest_entry(e.f) > proof_tuning::closed) {
     NormalMatrix normal(s, e);
     if (!normal.factorise()) return Round::stuck;
     refine_forces(s, e, normal);

@@ -1,4 +1,4 @@
-#include "proof/implied.hpp"
+#include "proof/closing.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,18 +1,76 @@
 #include "proof/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/call_scope.hpp"
-#include "proof/exact_closure.hpp"
+#include "linalg/dot.hpp"
+#include "network/resolution.hpp"
+#include "proof/closing.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam::inside {
 namespace {
 
-double length(const std::vector<double> &x) {
-  double s = 0.0;
-  for (const double v : x) s += v * v;
-  return std::sqrt(s);
+bool shown(const Proof &proof) { return proof.exact || proof.trapped; }
+
+// As find_proof, without the cause of a saddle.
+bool search_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
+  ProofScene other = scene;
+  const bool refined = refine(scene, equations);
+  if (refined) free_rattlers(scene);  // an overlap of one would widen the trap of all
+  proof = refined ? prove(scene, equations) : Proof{};
+  if (!refined) proof.cause = ProofCause::singular;
+  if (!refined && scene.contacts() < static_cast<size_t>(scene.needed())) {  // their rows are no square
+    proof.cause = ProofCause::excess, proof.cause_value = static_cast<double>(scene.contacts());
+    proof.cause_bound = static_cast<double>(scene.needed());
+  }
+  if (shown(proof) || scene.strict || scene.contacts() == 0) return refined;
+  const Exchange exchanged = close_together(other);
+  const ProofScene closed = other;
+  const Settled end = finish_exchange(other, exchanged);
+  if (end == Settled::unchanged) return refined;
+  ProofScene settled = other;
+  ProofEquations there;
+  settled.implied = find_implied(settled);
+  if (refine(settled, there)) {
+    const Proof again = prove(settled, there);
+    if (shown(again)) {
+      proof = again, scene = std::move(settled), equations = std::move(there);
+      return true;
+    }
+  }
+  if (end != Settled::held) return refined;
+  mix_in_forces_of_closed(other, closed);
+  if (!balance(other, there)) return refined;
+  proof = prove(other, there), scene = std::move(other), equations = std::move(there);
+  return true;
+}
+
+// Contacts with weak forces that do not close together: the two numbers are the least force and the widest gap.
+void name_saddle(const ProofScene &s, const ProofEquations &e, Proof &proof) {
+  if (proof.cause != ProofCause::excess || !(proof.least_force < proof_tuning::weak)) return;
+  double widest = 0.0;
+  for (size_t c = 0; c < s.contacts(); ++c)
+    widest = std::max(widest, 0.5 * std::fabs(e.f[c]) / (e.sigma2[c] * s.gamma()));
+  if (!(widest > proof_tuning::nearly_closed)) return;
+  proof.cause = ProofCause::saddle, proof.cause_value = proof.least_force, proof.cause_bound = widest;
+}
+
+// The cause where nothing is proved and spheres touch their own images, whether a network lists them or not.
+void name_images(const ProofScene &s, Proof &proof) {
+  const double widest = *std::max_element(s.ratio.begin(), s.ratio.end()), apart = s.shortest_period();
+  if (!shown(proof) && s.gamma() * widest * widest > (1.0 - contact_gap_limit) * apart * apart)
+    proof.cause = ProofCause::images, proof.cause_value = 1.0, proof.cause_bound = 0.0;
+}
+
+Expansion squared_distance(const ProofScene &s, size_t c) {
+  Expansion sum;
+  for (int k = 0; k < s.dim; ++k) {
+    const Expansion r = s.component(c, k);
+    sum.add_product(r, r);
+  }
+  return sum;
 }
 
 }  // namespace
@@ -70,11 +128,11 @@ bool approach_closure(ProofScene &s, ProofEquations &e) {
   for (int k = 0; k < proof_tuning::newton_steps; ++k) {
     CallScope::look();
     const NewtonStep step = newton_step(s, e, normal);
-    if (!(length(step.v) < s.cell.side())) break;  // of a singular matrix: infinite, or not a number
+    if (!(norm(step.v) < s.cell.side())) break;  // of a singular matrix: infinite, or not a number
     ProofScene next = s;
     take_step(next, step);
     ProofEquations there = evaluate(next);
-    if (!(length(there.f) < length(e.f))) break;
+    if (!(norm(there.f) < norm(e.f))) break;
     s = std::move(next), e = std::move(there);
   }
   return true;
@@ -100,6 +158,48 @@ bool refine(ProofScene &s, ProofEquations &e) {
   if (!closed || s.strict) refine_forces(s, e, normal);
   if (closed) equal_forces(s);
   return true;
+}
+
+bool close_exactly(ProofScene &s) {
+  if (s.contacts() == 0 || s.rooted()) return false;
+  // Gamma = |r|^2 / sigma^2 of the first contact, where that is a sum of two doubles.
+  const Expansion square = squared_distance(s, 0), sigma2 = s.sigma_squared(size_t{0});
+  int exponent = 0;
+  if (sigma2.count() != 1 || std::frexp(sigma2.part(0), &exponent) != 0.5 || square.count() > 2) return false;
+  const double unit = std::ldexp(1.0, 1 - exponent);
+  const double high = square.count() > 0 ? square.part(square.count() - 1) * unit : 0.0;
+  const double low = square.count() == 2 ? square.part(0) * unit : 0.0;
+  if (!(high > 0.0)) return false;
+  Expansion gamma(high);
+  gamma.add(low);
+  for (size_t c = 0; c < s.contacts(); ++c) {
+    Expansion f = squared_distance(s, c);
+    f.add_product(gamma, s.sigma_squared(c), -1.0);
+    if (f.count() != 0) return false;
+  }
+  s.growth = high, s.growth_low = low;
+  return true;
+}
+
+void equal_forces(ProofScene &s) {
+  const auto [least, most] = std::minmax_element(s.force.begin(), s.force.end());
+  if (*most - *least < 1e-9 * *most) std::fill(s.force.begin(), s.force.end(), s.force[0]);
+}
+
+// Steps to the least gaps would spread those of pairs that are not quite closed over all.
+bool balance(ProofScene &s, ProofEquations &e) {
+  e = evaluate(s);
+  NormalMatrix normal(s, e);
+  if (!normal.factorise()) return false;
+  refine_forces(s, e, normal);
+  return *std::min_element(s.force.begin(), s.force.end()) > 0.0;
+}
+
+bool find_proof(ProofScene &scene, ProofEquations &equations, Proof &proof) {
+  const bool refined = search_proof(scene, equations, proof);
+  name_images(scene, proof);
+  if (refined && !shown(proof) && !scene.strict) name_saddle(scene, equations, proof);
+  return refined;
 }
 
 }  // namespace jam::inside

@@ -1,4 +1,4 @@
-#include "proof/normal_matrix.hpp"
+#include "proof/newton.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,8 @@
 
 #include "core/call_scope.hpp"
 #include "core/rng.hpp"
-#include "proof/outward.hpp"
+#include "linalg/dot.hpp"
+#include "proof/expansion.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam::inside {
@@ -90,13 +91,11 @@ double NormalMatrix::smallest_eigenvalue() const {
     CallScope::look();
     factor_->solve(v.data());
     pin(v);
-    double length = 0.0, stretch = 0.0;
-    for (const double x : v) length += x * x;
+    const double length = dot(v, v);
     if (!(length > 0.0)) return 0.0;
     for (double &x : v) x /= std::sqrt(length);
     multiply_rows(scene_, equations_, v.data(), y.data());
-    for (const double x : y) stretch += x * x;
-    value = stretch;
+    value = dot(y, y);
   }
   return value;
 }

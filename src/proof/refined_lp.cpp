@@ -1,4 +1,4 @@
-#include "proof/refined_lp.hpp"
+#include "proof/closing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,6 @@
 #include "core/call_scope.hpp"
 #include "core/double_double.hpp"
 #include "lp/packing_lp.hpp"
-#include "proof/open_gaps.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam::inside {

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion.hpp"
-#include "proof/implied.hpp"
-#include "proof/outward.hpp"
+#include "core/cell_change.hpp"
+#include "proof/closing.hpp"
 
 namespace jam::inside {
 

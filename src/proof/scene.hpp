@@ -21,10 +21,7 @@
 // at a wall 2 for its sphere.
 #pragma once
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
-#include "core/packing.hpp"
 #include "network/contact_network.hpp"
 #include "proof/expansion.hpp"
 
@@ -53,7 +50,7 @@ struct ProofScene {
   std::vector<int32_t> a, b;              // contact -> nodes; b < 0: a wall
   std::vector<int32_t> image;             // (contacts, dim): n_c
   std::vector<double> force;              // f_c > 0 with sum f_c sigma_c^2 = 1; as given by the network until refined
-  std::vector<ImpliedContact> implied;    // d = 2: implied.hpp. Each follows from those before it and the others
+  std::vector<ImpliedContact> implied;    // d = 2: implied.cpp. Each follows from those before it and the others
   std::vector<double> row;  // with implied contacts: the state of self-stress of the others alone, once refined
   bool own_images = false;  // a contact of a sphere with its own image
   std::vector<char> pin;    // with a round wall, (n, dim): components that are pinned to exclude rotations

@@ -1,11 +1,9 @@
-#include "proof/theorem.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "proof/closing.hpp"
+#include "proof/expansion.hpp"
 #include "proof/newton.hpp"
-#include "proof/open_gaps.hpp"
-#include "proof/outward.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam::inside {

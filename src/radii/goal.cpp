@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
 #include "radii/tuning.hpp"

@@ -6,8 +6,6 @@
 // With g_q = ln(P_q / M_q) / q, ln lambda is g of the first exponent. The others give one equation each,
 // g_q - g_first = 0. Their gradients on the radii are dense columns, which border the matrix of a step.
 #pragma once
-#include <vector>
-
 #include "core/double_double.hpp"
 #include "core/packing.hpp"
 

@@ -4,14 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/create.hpp"
-#include "core/double_double.hpp"
-#include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/sentence.hpp"
-#include "radii/goal.hpp"
-#include "radii/options.hpp"
-#include "radii/path.hpp"
 #include "radii/tuning.hpp"
 #include "radii/vertex.hpp"
 

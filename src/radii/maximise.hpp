@@ -1,18 +1,14 @@
 // jam_maximise_radii: positions and radii of the largest weighted sum of radii, or of the largest common factor of
 // moments of the radii, in a fixed cell or one that deforms at fixed volume.
 //
-//   checks -> radii shrink to open all contacts -> path.hpp at falling mu -> vertex.hpp -> maximum
+//   checks -> radii shrink to open all contacts -> path.cpp at falling mu -> vertex.cpp -> maximum
 //                                                      ^                        |  forces do not balance: smaller mu
 //                                                      +------------------------+  a saddle: pushed off it, larger mu
 #pragma once
-#include <string>
-#include <vector>
-
 #include "core/monitor.hpp"
 #include "core/notes.hpp"
-#include "core/packing.hpp"
-#include "jam/jam.h"
 #include "network/contact_network.hpp"
+#include "radii/rows.hpp"
 
 namespace jam::inside {
 
@@ -25,5 +21,12 @@ struct RadiiResult {
   Notes notes;
 };
 RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, const double *weights, Monitor &monitor);
+
+// Options of jam_maximise_radii: defaults, what is refused, and what they name.
+jam_radii_options default_radii_options();
+// Throws JAM_E_... before any work.
+void check_radii(const Packing &p, const jam_radii_options &o, const double *weights, size_t weights_len);
+std::vector<double> exponents_of(const jam_radii_options &o);
+RadiiBounds bounds_of(const Packing &p, const jam_radii_options &o);
 
 }  // namespace jam::inside

@@ -1,14 +1,12 @@
-// See options.hpp.
-#include "radii/options.hpp"
+#include "radii/maximise.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/checks.hpp"
 #include "core/create.hpp"
-#include "radii/goal.hpp"
-#include "radii/path.hpp"
+#include "core/limits.hpp"
 #include "radii/tuning.hpp"
+#include "radii/vertex.hpp"
 
 namespace jam::inside {
 

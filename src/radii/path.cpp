@@ -1,5 +1,4 @@
-// See path.hpp.
-#include "radii/path.hpp"
+#include "radii/vertex.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +6,7 @@
 
 #include "core/cell_change.hpp"
 #include "core/math.hpp"
-#include "core/motion.hpp"
+#include "linalg/dot.hpp"
 #include "radii/tuning.hpp"
 
 namespace jam::inside {
@@ -62,15 +61,10 @@ double RadiiPath::first_mu() const {
 double RadiiPath::longest_of(const std::vector<double> &x) const {
   const size_t b = rows_.block();
   double most = 0.0;
-  for (size_t i = 0; i < p_.n(); ++i) {
-    double s2 = 0.0;
-    for (size_t c = 0; c + 1 < b; ++c) s2 += x[i * b + c] * x[i * b + c];
-    most = std::max(most, std::sqrt(s2) + std::fabs(x[i * b + b - 1]));
-  }
+  for (size_t i = 0; i < p_.n(); ++i)
+    most = std::max(most, std::sqrt(squared(&x[i * b], p_.dim)) + std::fabs(x[i * b + b - 1]));
   if (bounds_.strains() == 0) return most;
-  double square = 0.0;
-  for (const double e : strain_of(bounds_, x, 1.0)) square += e * e;
-  return most + 0.5 * std::sqrt(square) * (RadiiTuning::reach * unit_ + diameter_max(p_));
+  return most + 0.5 * norm(strain_of(bounds_, x, 1.0)) * (RadiiTuning::reach * unit_ + diameter_max(p_));
 }
 
 // Newton's direction, its slope and the decrement.

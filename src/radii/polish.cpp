@@ -1,15 +1,12 @@
-// See polish.hpp.
-#include "radii/polish.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/rng.hpp"
-#include "linalg/small_cholesky.hpp"
+#include "linalg/dot.hpp"
 #include "linalg/symmetric_eigen.hpp"
-#include "radii/path.hpp"
 #include "radii/tuning.hpp"
+#include "radii/vertex.hpp"
 
 namespace jam::inside {
 namespace {
@@ -67,7 +64,7 @@ bool independent(const RadiiRows &contacts, const std::vector<char> &touched,
     for (size_t i = 0; i < n; ++i)
       if (touched[i]) moved[i * b + c] = 1.0, mean += x[i * b + c], count += 1.0;
     contacts.times(moved, opened);
-    const bool keeps = largest_of(opened) == 0.0 && count > 0.0;
+    const bool keeps = largest_entry(opened) == 0.0 && count > 0.0;
     for (size_t i = 0; i < n; ++i) x[i * b + c] = touched[i] ? x[i * b + c] - (keeps ? mean / count : 0.0) : 0.0;
   }
   const auto along = [&](const std::vector<double> &y) {
@@ -161,7 +158,7 @@ std::vector<double> combine(const std::vector<std::vector<double>> &motion, cons
   std::vector<double> x(motion[0].size());
   for (size_t a = 0; a < part.size(); ++a)
     for (size_t q = 0; q < x.size(); ++q) x[q] += part[a] * motion[a][q];
-  const double most = largest_of(x);
+  const double most = largest_entry(x);
   for (double &v : x) v /= most;
   return x;
 }
@@ -184,12 +181,6 @@ double longest_edge(const Packing &p) {
   return edge;
 }
 
-double largest_of(const std::vector<double> &x) {
-  double most = 0.0;
-  for (const double v : x) most = std::max(most, std::fabs(v));
-  return most;
-}
-
 bool close_contacts(Packing &p, RadiiRows &contacts, RadiiGoal &goal, RadiiMatrix &matrix, double unit) {
   const std::vector<double> ones(contacts.pairs.size() + contacts.bounds(), 1.0);
   std::vector<double> step;
@@ -198,7 +189,7 @@ bool close_contacts(Packing &p, RadiiRows &contacts, RadiiGoal &goal, RadiiMatri
   for (int k = 0; k < RadiiTuning::polish_steps; ++k) {
     contacts.measure(p);
     goal.linearise(p);
-    const double wrong = std::max(largest_of(contacts.gap), goal.residual(p) * unit);
+    const double wrong = std::max(largest_entry(contacts.gap), goal.residual(p) * unit);
     const bool small = wrong <= RadiiTuning::closed * longest_edge(p);
     if (small && !(wrong < 0.5 * before)) return true;
     if (k > 3 && !small && !(wrong < before)) return false;
@@ -206,14 +197,14 @@ bool close_contacts(Packing &p, RadiiRows &contacts, RadiiGoal &goal, RadiiMatri
     contacts.transpose_times(contacts.gap, step);
     matrix.factorise(contacts, ones, goal.columns(), RadiiTuning::polish_ridge, 1);
     matrix.solve(step, goal.wrong(p));
-    path += largest_of(step);
+    path += largest_entry(step);
     if (!(path < RadiiTuning::longest_polish * unit)) return false;
     move_radii(p, step, -1.0, contacts.allowed(), moved);
     std::swap(p, moved);
   }
   contacts.measure(p);
   goal.linearise(p);
-  return std::max(largest_of(contacts.gap), goal.residual(p) * unit) <= RadiiTuning::closed * longest_edge(p);
+  return std::max(largest_entry(contacts.gap), goal.residual(p) * unit) <= RadiiTuning::closed * longest_edge(p);
 }
 
 void balance_contacts(RadiiVertex &at, RadiiGoal &goal, RadiiMatrix &matrix) {
@@ -251,7 +242,7 @@ bool settle_curved(RadiiVertex &at, RadiiGoal &goal, double unit, RadiiMatrix &m
     factor.solve(part);
     for (size_t a = 0; a < m; ++a)
       for (size_t q = 0; q < x.size(); ++q) x[q] += part[a] * motion[a][q];
-    if (!(largest_of(x) < RadiiTuning::longest_polish * unit)) return false;
+    if (!(largest_entry(x) < RadiiTuning::longest_polish * unit)) return false;
     const Packing from = at.packing;
     move_radii(from, x, 1.0, at.contacts.allowed(), at.packing);
     if (!close_contacts(at.packing, at.contacts, goal, matrix, unit)) return false;

@@ -7,22 +7,18 @@
 // Sphere i has d + 1 unknowns: its displacement s_i and the growth t_i of its radius. Row k is linear in them with
 // n = r_ij / |r_ij|: c + n . (s_i - s_j) - t_i - t_j. As |r + s| >= n . (r + s), no point that keeps the linear rows
 // has an overlap, however long the step. In a free cell strains e are unknowns too, and add n . E(e) r. Their volume is
-// kept by a common factor >= 1 (core/motion.hpp), which opens gaps further.
+// kept by a common factor >= 1 (core/cell_change.hpp), which opens gaps further.
 //
 // A round wall bends the other way: |r| <= A - R about its centre, so that steps are tested on true gaps. Its barrier
 // is that of the cone, log((A - R)^2 - |r|^2), smooth where r = 0: log c of the nearest point plus log c of the
 // opposite one, A + |r| - R, which is a row of the path too. In all, second derivatives of the barrier are
 //     -mu a a^T / c^2 of both rows, and -2 mu / (c c_opposite) (P - m m^T) of positions (P, m: core/surface.hpp).
 #pragma once
-#include <cstdint>
 #include <limits>
-#include <vector>
 
-#include "core/packing.hpp"
-#include "core/pairs.hpp"
 #include "linalg/block_cholesky.hpp"
-#include "linalg/small_cholesky.hpp"
-#include "lp/strain.hpp"
+#include "linalg/symmetric_eigen.hpp"
+#include "lp/packing_lp.hpp"
 
 namespace jam::inside {
 

@@ -6,8 +6,7 @@
 
 #include "core/double_double.hpp"
 #include "core/rng.hpp"
-#include "radii/path.hpp"
-#include "radii/polish.hpp"
+#include "linalg/dot.hpp"
 #include "radii/tuning.hpp"
 
 namespace jam::inside {
@@ -43,15 +42,15 @@ std::vector<double> free_motion(const Packing &p, const RadiiRows &contacts, con
   Rng rng(p.seed, Stream::radii_saddle);
   std::vector<double> x(contacts.unknowns());
   for (double &v : x) v = rng.normal();
-  const double before = largest_of(x);
+  const double before = largest_entry(x);
   keep_closed(contacts, matrix, x);
-  const double rest = largest_of(x);
+  const double rest = largest_entry(x);
   if (!(rest > RadiiTuning::no_motion * before)) return {};
   for (double &v : x) v /= rest;
   return x;
 }
 
-// Second derivative of the factor that keeps the volume (core/motion.hpp) along a strain.
+// Second derivative of the factor that keeps the volume (core/cell_change.hpp) along a strain.
 double widening_of(const Packing &p, const std::vector<double> &strain) {
   if (strain.empty()) return 0.0;
   double sum = 0.0;
@@ -146,7 +145,7 @@ RadiiVertex close_vertex(const Packing &p, const RadiiRows &rows, const std::vec
   if (*std::min_element(gaps.begin(), gaps.end()) < -RadiiTuning::closed * longest_edge(p)) return out;
   take_rounding_out(out.packing, near.pairs, bounds.least);
   out.contacts.measure(out.packing);
-  out.gap = largest_of(out.contacts.gap);
+  out.gap = largest_entry(out.contacts.gap);
   near.measure_gaps(out.packing, gaps);
   gaps.resize(near.pairs.size());
   std::sort(gaps.begin(), gaps.end());

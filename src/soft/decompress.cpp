@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "core/checks.hpp"
-#include "core/error.hpp"
+#include "core/limits.hpp"
 #include "core/math.hpp"
+#include "linalg/dot.hpp"
 #include "soft/decompression.hpp"
-#include "soft/soft_hessian.hpp"
 #include "soft/tuning.hpp"
 
 namespace jam::inside {
@@ -101,8 +99,7 @@ void follow_growth(SoftState &state, double growth, int64_t &factorisations) {
     }
   }
   hessian.solve(u);
-  double most = 0.0;
-  for (const double x : u) most = std::max(most, std::fabs(x));
+  const double most = largest_entry(u);
   if (!(most < DecompressTuning::longest_guess * state.diameter_mean())) {
     const double part = DecompressTuning::longest_guess * state.diameter_mean() / most;
     for (double &x : u) x *= part;

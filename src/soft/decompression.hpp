@@ -4,7 +4,6 @@
 #pragma once
 #include <array>
 #include <functional>
-#include <vector>
 
 #include "network/contact_network.hpp"
 #include "soft/relaxation.hpp"
@@ -62,8 +61,8 @@ SoftComparison compare_with_jammed(const ContactNetwork &soft, const ContactNetw
 SoftResult measure(SoftState &state, int32_t minimiser);
 // The state of a start; its search for pairs may be left by Cancelled.
 SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision);
-// Minimises by a jam_minimiser. near_minimum: Newton's method is tried before first-order descent.
-DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum);
+// Minimises by a jam_minimiser. near_minimum, convex: as of hybrid().
+DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, bool *convex = nullptr);
 // The same, and measures what is handed out: balanced means that its residuals are below the tolerance.
 DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, SoftResult &out);
 // Status and stop reason of a minimum.

@@ -1,12 +1,27 @@
 // What is reported of a soft packing at its minimum.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/math.hpp"
-#include "network/certificate.hpp"
+#include "core/pair_rule.hpp"
+#include "linalg/dot.hpp"
 #include "soft/decompression.hpp"
+#include "soft/tuning.hpp"
 
 namespace jam::inside {
+namespace {
+
+double largest(const std::vector<double> &force, size_t n, int d, const std::vector<char> *of) {
+  double most = 0.0;
+  for (size_t i = 0; i < n; ++i) {
+    if (of && !(*of)[i]) continue;
+    most = std::max(most, squared(&force[i * d], d));
+  }
+  return std::sqrt(most);
+}
+
+}  // namespace
 
 SoftResult measure(SoftState &state, int32_t minimiser) {
   state.rebase();  // offsets of pairs then belong to the rounded positions
@@ -45,9 +60,7 @@ SoftResult measure(SoftState &state, int32_t minimiser) {
   double worst = 0.0;
   for (size_t i = 0; i < state.n(); ++i) {
     if (net.coordination[i] == 0) continue;
-    double f2 = 0.0;
-    for (int c = 0; c < d; ++c) f2 += force[i * d + c] * force[i * d + c];
-    worst = std::max(worst, f2);
+    worst = std::max(worst, squared(&force[i * d], d));
     ++r.stable;
   }
   r.minimiser = minimiser;
@@ -96,6 +109,121 @@ SoftComparison compare_with_jammed(const ContactNetwork &soft, const ContactNetw
   for (const auto &[k, q] : common)
     v.force_difference = std::max(v.force_difference, std::fabs(soft.force[k] - hard.force[q]));
   return v;
+}
+
+void centre_rattlers(SoftState &state) {
+  const int d = state.dim();
+  const SoftContacts contacts = state.contacts();
+  const std::vector<char> on = stable_contacts(state, contacts);
+  std::vector<char> rattler(state.n(), 1);
+  for (size_t q = 0; q < contacts.size(); ++q)
+    if (on[q])
+      for_spheres(state.pairs().i[contacts.pair[q]], state.pairs().j[contacts.pair[q]],
+                  [&](int32_t s) { rattler[s] = 0; });
+  Packing p = state.packing();
+  const double mean = state.diameter_mean();
+  const PairList pairs = find_pairs(p, 0.5 * mean, 1.0);
+  std::vector<std::vector<size_t>> of(state.n());
+  for (size_t k = 0; k < pairs.size(); ++k) {
+    if (pairs.i[k] == pairs.j[k]) continue;
+    for_spheres(pairs.i[k], pairs.j[k], [&](int32_t s) {
+      if (rattler[s]) of[s].push_back(k);
+    });
+  }
+  const std::vector<double> start = p.position;
+  // Smallest gap of sphere i at the positions in p, and the direction away from that neighbour.
+  const auto nearest = [&](size_t i, double *away) {
+    double least = std::numeric_limits<double>::infinity(), r[JAM_MAX_DIM];
+    for (const size_t k : of[i]) {
+      const double length = std::sqrt(pair_vector(p, pairs, k, r));
+      const double gap = length - contact_distance(p, pairs.i[k], pairs.j[k]);
+      if (!(gap < least) || !(length > 0.0)) continue;
+      least = gap;
+      const double sign = static_cast<size_t>(pairs.i[k]) == i ? 1.0 : -1.0;
+      for (int c = 0; c < d; ++c) away[c] = sign * r[c] / length;
+    }
+    return least;
+  };
+  double away[JAM_MAX_DIM] = {}, step = CageTuning::first_step * mean;
+  std::vector<double> before(state.n()), best = start, widest(state.n(), -std::numeric_limits<double>::infinity());
+  for (size_t i = 0; i < state.n(); ++i) before[i] = nearest(i, away);
+  for (int sweep = 0; sweep < CageTuning::sweeps; ++sweep, step *= CageTuning::step_factor)
+    for (size_t i = 0; i < state.n(); ++i) {
+      if (of[i].empty()) continue;
+      const double least = nearest(i, away);
+      if (least > widest[i]) {
+        widest[i] = least;
+        std::copy_n(&p.position[i * d], d, &best[i * d]);
+      }
+      if (least > CageTuning::wide_gap * mean) continue;
+      for (int c = 0; c < d; ++c) p.position[i * d + c] += step * away[c];
+    }
+  p.position = best;
+  // Where rattlers share a cage their best places may not fit together: these go back.
+  for (bool again = true; again;) {
+    again = false;
+    for (size_t i = 0; i < state.n(); ++i) {
+      if (of[i].empty() || best[i * d] == start[i * d] || nearest(i, away) >= std::min(0.0, before[i])) continue;
+      std::copy_n(&start[i * d], d, &p.position[i * d]);
+      std::copy_n(&start[i * d], d, &best[i * d]);
+      again = true;
+    }
+  }
+  for (size_t k = 0; k < start.size(); ++k) state.displacement()[k] += best[k] - start[k];
+}
+
+double Relaxation::residual() const {
+  if (sums.coincident > 0) return std::numeric_limits<double>::infinity();
+  const double mean = sums.mean_force();
+  if (mean > weak_force) return std::max(largest(force, state.n(), state.dim(), nullptr) / mean, sums.stress);
+  return at_rest() || weak_force > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+double Relaxation::stable_residual() const {
+  if (sums.coincident > 0) return std::numeric_limits<double>::infinity();
+  const SoftContacts contacts = state.contacts();
+  const std::vector<char> on = stable_contacts(state, contacts);
+  std::vector<char> stable(state.n(), 0);
+  double sum = 0.0;
+  int64_t count = 0;
+  for (size_t k = 0; k < contacts.size(); ++k) {
+    if (!on[k]) continue;
+    for_spheres(state.pairs().i[contacts.pair[k]], state.pairs().j[contacts.pair[k]],
+                [&](int32_t s) { stable[s] = 1; });
+    sum += contacts.force[k];
+    ++count;
+  }
+  if (count == 0 || sums.mean_force() <= weak_force) return residual();
+  return std::max(largest(force, state.n(), state.dim(), &stable) * static_cast<double>(count) / sum, sums.stress);
+}
+
+bool Relaxation::yields() const {
+  if (state.cell().beyond.empty()) return false;
+  const std::vector<double> e = strain_between(start, state.base().cell);
+  return std::any_of(e.begin(), e.end(), [](double x) { return std::fabs(x) > RelaxTuning::most_strain; });
+}
+
+bool Relaxation::must_stop(DescentEnd &end, bool long_steps) const {
+  if (effort.evaluations >= effort.max_evaluations) {
+    end = DescentEnd::limit;
+    return true;
+  }
+  if (effort.monitor && (long_steps || effort.evaluations % 64 == 1)) {
+    jam_progress p = progress_of(effort.phase);
+    p.packing_fraction = effort.packing_fraction;
+    p.pressure = effort.pressure;
+    p.steps = effort.steps;
+    p.factorisations = effort.factorisations;
+    if (effort.monitor->report(p) || effort.monitor->interrupted()) {
+      end = DescentEnd::interrupted;
+      return true;
+    }
+    if (yields()) {
+      end = DescentEnd::yields;
+      return true;
+    }
+  }
+  return false;
 }
 
 }  // namespace jam::inside

@@ -4,13 +4,9 @@
 #include <limits>
 
 #include "core/call_scope.hpp"
-#include "core/checks.hpp"
-#include "core/error.hpp"
-#include "core/math.hpp"
+#include "core/limits.hpp"
 #include "core/pair_rule.hpp"
-#include "core/rng.hpp"
 #include "soft/decompression.hpp"
-#include "soft/soft_hessian.hpp"
 #include "soft/tuning.hpp"
 
 namespace jam::inside {
@@ -60,17 +56,13 @@ SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precis
   return SoftState(p, energy, precision);
 }
 
-DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum) {
+DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, bool *convex) {
   const CancellableScope scope;
+  bool unused = false;
   try {
-    switch (minimiser) {
-      case JAM_MINIMISER_FIRE:
-        return fire(r, tolerance);
-      case JAM_MINIMISER_LBFGS:
-        return lbfgs(r, tolerance);
-      default:
-        return hybrid(r, tolerance, near_minimum);
-    }
+    if (minimiser == JAM_MINIMISER_FIRE) return fire(r, tolerance);
+    if (minimiser == JAM_MINIMISER_LBFGS) return lbfgs(r, tolerance);
+    return hybrid(r, tolerance, near_minimum, convex ? *convex : unused);
   } catch (const Cancelled &) {  // in a search for pairs
     return DescentEnd::interrupted;
   }
@@ -117,15 +109,7 @@ static void displace_at_random(Relaxation &r, size_t attempt) {
 DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum,
                                 SoftResult &out) {
   bool convex = false;
-  const auto descend = [&](bool near) {
-    if (minimiser != JAM_MINIMISER_NEWTON) return minimise(r, minimiser, tolerance, near);
-    const CancellableScope scope;
-    try {
-      return hybrid(r, tolerance, near, convex);
-    } catch (const Cancelled &) {
-      return DescentEnd::interrupted;
-    }
-  };
+  const auto descend = [&](bool near) { return minimise(r, minimiser, tolerance, near, &convex); };
   DescentEnd end = descend(near_minimum);
   size_t saddles = 0;
   for (int attempt = 0;; ++attempt) {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/cell_change.hpp"
+#include "core/create.hpp"
 #include "core/error.hpp"
-#include "core/validate.hpp"
 #include "soft/tuning.hpp"
 
 namespace jam::inside {

@@ -2,10 +2,7 @@
 //   minimum -> affine strain -> minimum -> work against energy -> halved steps around what does not add up -> rows
 // The minimum is that of soft spheres, or the jamming point of hard ones; both come as a function from outside.
 #pragma once
-#include <array>
-#include <functional>
 #include <string>
-#include <vector>
 
 #include "soft/decompression.hpp"
 

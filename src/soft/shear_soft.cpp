@@ -5,8 +5,7 @@
 #include <limits>
 
 #include "core/call_scope.hpp"
-#include "core/checks.hpp"
-#include "core/error.hpp"
+#include "core/limits.hpp"
 #include "soft/shear.hpp"
 #include "soft/tuning.hpp"
 

@@ -1,8 +1,7 @@
-#include "soft/soft_cell.hpp"
+#include "soft/soft_state.hpp"
 
 #include <cmath>
 
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
 

@@ -1,4 +1,4 @@
-#include "soft/soft_hessian.hpp"
+#include "soft/relaxation.hpp"
 #include "soft/tuning.hpp"
 
 #include <Eigen/Dense>

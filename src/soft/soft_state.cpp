@@ -5,9 +5,8 @@
 #include <cmath>
 
 #include "core/call_scope.hpp"
-#include "core/double_double.hpp"
 #include "core/pair_rule.hpp"
-#include "core/rng.hpp"
+#include "linalg/dot.hpp"
 #include "network/rattlers.hpp"
 #include "soft/tuning.hpp"
 
@@ -93,19 +92,9 @@ void SoftState::take_references() {
 
 bool SoftState::moved() {
   ++uses_;
-  double most = 0.0;
-  const int d = base_.dim;
-  for (size_t i = 0; i < n(); ++i) {
-    double u2 = 0.0;
-    for (int c = 0; c < d; ++c) u2 += displacement_[i * d + c] * displacement_[i * d + c];
-    most = std::max(most, u2);
-  }
+  const double most = largest_squared(displacement_, n(), base_.dim);
   double rest = skin_;  // a strain shortens vectors by its norm times their length at most
-  if (strains() > 0) {
-    double e2 = 0.0;
-    for (const double e : strain().e) e2 += e * e;
-    rest = std::max(0.0, rest - std::sqrt(e2) * (skin_ + contact_distance_max(base_)));
-  }
+  if (strains() > 0) rest = std::max(0.0, rest - norm(strain().e) * (skin_ + contact_distance_max(base_)));
   if (!(4.0 * most >= rest * rest)) return false;
   if (uses_ < SkinTuning::few_evaluations)
     skin_ = std::min(SkinTuning::grow * skin_, SkinTuning::longest * diameter_mean_);

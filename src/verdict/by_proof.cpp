@@ -1,13 +1,11 @@
-// What two doubles add to the test of doubles: rules.hpp.
+// What two doubles add to the test of doubles.
 #include <algorithm>
-#include <cmath>
 
 #include "core/pair_rule.hpp"
 #include "proof/closing.hpp"
-#include "proof/find.hpp"
 #include "proof/newton.hpp"
 #include "proof/tuning.hpp"
-#include "verdict/rules.hpp"
+#include "verdict/verdict.hpp"
 
 namespace jam::inside {
 namespace {

@@ -1,14 +1,12 @@
-#include "verdict/rules.hpp"
+#include "verdict/verdict.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "network/contacts_from_geometry.hpp"
 #include "network/rattlers.hpp"
-#include "verdict/clearance.hpp"
 #include "verdict/tuning.hpp"
 
 namespace jam::inside {

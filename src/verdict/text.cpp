@@ -3,9 +3,9 @@
 #include <cctype>
 #include <cmath>
 
+#include "core/error.hpp"
 #include "core/math.hpp"
 #include "core/pairs.hpp"
-#include "core/sentence.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {

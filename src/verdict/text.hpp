@@ -1,9 +1,7 @@
 // A verdict in words and in reports: one reason, and one sentence a reason, for every call.
 #pragma once
 #include <cstdint>
-#include <string>
 
-#include "jam/jam.h"
 #include "verdict/verdict.hpp"
 
 namespace jam::inside {

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/pair_rule.hpp"
-#include "verdict/rules.hpp"
 
 namespace jam::inside {
 namespace {

@@ -1,7 +1,7 @@
 // The verdict on a packing: the one answer of jam_rigidity, the check, the report of a crunch, jam_flex, contacts from
 // geometry and copies.
 //
-//   pairs that touch or may touch -> test of their rows -> rules (rules.hpp), in one order -> answer, rule, numbers
+//   pairs that touch or may touch -> test of their rows -> rules (rules.cpp), in one order -> answer, rule, numbers
 //
 // Contacts are all pairs with gaps below contact_gap_limit, and those of a list below undecided_gap_limit. In doubt are
 // those of the list below listed_gap_limit, and pairs that rounding or the digits of coordinates cannot distinguish
@@ -12,15 +12,36 @@
 #pragma once
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "core/packing.hpp"
 #include "network/contact_network.hpp"
 #include "network/resolution.hpp"
 #include "network/rigidity_test.hpp"
-#include "verdict/overlaps.hpp"
 
 namespace jam::inside {
+
+// The verdict on a packing as it is: from positions, diameters and cell alone, and nothing moves.
+
+// Overlaps before a verdict. Every test of jamming is of hard spheres, so diameters are reduced until none is left.
+struct TestedPacking {
+  Packing packing;  // no pair overlaps
+  GapResolution resolution;
+  double nearest_gap = 0.0;  // of the diameters as given; infinite where no pair is near
+  double diameter_factor = 1.0;
+  bool overlapping = false;  // by more than rounding and digits: the packing is another one than the given one
+};
+// Fails with JAM_E_OVERLAP above one half of a contact distance.
+TestedPacking without_overlaps(const Packing &p);
+
+// The report of a check that was left before it had a verdict.
+jam_check_report blank_report();
+
+struct CheckResult {
+  jam_check_report report{};
+  TestedPacking tested;
+  ContactNetwork carrying;  // contacts with force of the verdict
+};
+// known: the network that is stored with the packing, or NULL.
+CheckResult check_as_it_is(const Packing &p, const ContactNetwork *known = nullptr);
 
 // What the answer rests on. In the order in which rules are tried.
 enum class Rule {
@@ -106,5 +127,70 @@ struct CopiesEvidence {
   double margin = 0.0;        // least eigenvalue that is no translation
 };
 Verdict verdict_of_copies(const PackingVerdict &one_cell, const CopiesEvidence &evidence);
+
+// The clearance of a flex. Contacts that carry force open by the square of its length alone. A flex proves "not jammed"
+// only if, before another pair closes, it opens the force-bearing contacts by more than their present gaps.
+
+// Pairs that a flex of `carrying` contacts can close before it is as long as it must be, none of them one of `taken`.
+// That length is the square root of the widest gap of the carrying contacts, or of a rounding. strain: of the cell,
+// too; own_images: of a sphere with itself, which a fixed cell keeps apart.
+ContactNetwork blocking_pairs(const Packing &p, const ContactNetwork &carrying, const ContactNetwork &taken,
+                              bool strain, bool own_images);
+
+// Whether no pair blocks the flex of a no, `taken` being the contacts of v that count as closed. If one does, a flex
+// that keeps these pairs as well is searched for, and replaces it.
+bool find_unblocked_flex(const Packing &p, const std::vector<char> &taken, Jamming kind, PackingVerdict &v);
+
+// A motion of some spheres and a strain (empty: none), the largest displacement 1.
+struct StraightMotion {
+  const std::vector<int32_t> &sphere;
+  const std::vector<double> &flex, &strain;
+};
+// Whether it leads in a straight line over this length, in mean diameters, without an overlap beyond rounding. False
+// between round walls and for no motion.
+bool leads_free(const Packing &p, const StraightMotion &motion, double length);
+
+// The fraction of the flex of v along which no pair that touches overlaps beyond rounding: 1, or less where positions
+// are noisy and the flex closes contacts at the rate of that noise. 0 where it is shorter than the flex must be.
+double unblocked_fraction(const Packing &p, const PackingVerdict &v);
+
+// The rules of a verdict. Each examines one packing and one kind of jamming, and gives an answer or nothing.
+
+// One flag a pair of PackingVerdict::contacts.
+struct PairFlags {
+  std::vector<char> closed;        // taken as a contact
+  std::vector<char> maybe_closed;  // that, or in doubt
+  std::vector<char> listed;        // by the list that was given
+};
+
+// What rules work on: the packing, the pairs that were tested, and the verdict so far.
+struct JammingCase {
+  const Packing &p;
+  const GapResolution &resolution;
+  const ContactNetwork *known;  // stored with the packing, or NULL
+  const Jamming kind;
+  const bool overlapping;
+  PairFlags pairs;
+  RigidityMatrix rows;  // of all pairs
+  PackingVerdict v;
+  const PackingVerdict *other = nullptr;  // the verdict of the other kind, for the rules between them
+};
+
+using Says = std::optional<Verdict>;
+struct RuleOf {
+  Rule rule;
+  Says (*says)(JammingCase &);
+};
+// Tries those of the table between two rules, these included, in order.
+void try_rules(JammingCase &c, Rule first, Rule last);
+
+// by_proof.cpp. A yes that rests on weak forces, of more contacts than one state of self-stress has: doubles cannot
+// distinguish such forces from gaps. Where contacts do not all close, the network of those that close together, and
+// hold their spheres, takes its place. Where they do not hold them, or exchanges come to no end, nothing is decided: a
+// saddle, as far as two doubles show.
+Says recheck_weak_forces(JammingCase &c);
+// Undecided contacts that carry force: a yes where proof/newton.hpp proves that their spheres are trapped. Soft modes
+// that doubles cannot distinguish from flexes are decided so.
+Says raise_if_trapped(JammingCase &c);
 
 }  // namespace jam::inside

@@ -59,8 +59,8 @@ TUNED = {
     "linalg": ["newton_system.hpp"],
     "analysis": [],
     "pore": ["sphere_hull.cpp"],
-    "crunch": ["spacing.cpp"],
-    "dynamics": ["equation_of_state.cpp"],
+    "crunch": [],
+    "dynamics": [],
 }
 PROGRAMS = [
     "src/**/*.[ch]pp",

@@ -1,6 +1,5 @@
 // Density of states and moduli against lattices whose answers are known.
 #include "analysis/modes.hpp"
-#include "analysis/spectrum.hpp"
 #include "analysis_networks.hpp"
 #include "core/error.hpp"
 #include "core/rng.hpp"

@@ -10,7 +10,7 @@
 #include "core/byte_order.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
-#include "io/checkpoint.hpp"
+#include "io/files.hpp"
 
 #define JAM_SIMD_NAMESPACE plain
 #define JAM_SIMD_TARGET

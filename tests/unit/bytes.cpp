@@ -1,5 +1,5 @@
 // Numbers of bytes in texts have the unit that fits.
-#include "core/bytes.hpp"
+#include "core/error.hpp"
 #include "test.h"
 
 using namespace jam::inside;

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <vector>
+#include "core/cell_change.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/motion.hpp"
 #include "core/pairs.hpp"
 #include "core/rng.hpp"
 // test.h comes last: it has a macro `fail`.

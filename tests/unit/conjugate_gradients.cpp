@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "linalg/conjugate_gradients.hpp"
+#include "linalg/newton_system.hpp"
 #include "test.h"
 
 using namespace jam::inside;

@@ -2,7 +2,6 @@
 #include "test.h"
 
 #include "crunch/path/barrier_path.hpp"
-#include "crunch/path/neighbours.hpp"
 #include "unit/crunch_scenes.hpp"
 
 using namespace jam::inside;

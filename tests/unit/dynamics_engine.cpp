@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "dynamics/event_driven/engine.hpp"
-#include "dynamics/event_driven/options.hpp"
+#include "dynamics/event_driven/run.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam::inside;

@@ -2,7 +2,7 @@
 // engine, no overlaps in long growth, archives in the middle.
 #include "core/pairs.hpp"
 #include "dynamics/event_driven/engine.hpp"
-#include "dynamics/event_driven/options.hpp"
+#include "dynamics/event_driven/run.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam::inside;

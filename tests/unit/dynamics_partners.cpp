@@ -5,8 +5,8 @@
 #include "core/pair_rule.hpp"
 #include "core/pairs.hpp"
 #include "dynamics/event_driven/engine.hpp"
-#include "dynamics/event_driven/options.hpp"
-#include "dynamics/event_driven/partner_table.hpp"
+#include "dynamics/event_driven/mari_kurchan.hpp"
+#include "dynamics/event_driven/run.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam::inside;

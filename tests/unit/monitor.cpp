@@ -8,7 +8,6 @@
 #include "core/error.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "linalg/dense_front.hpp"
-#include "linalg/report_while.hpp"
 #include "test.h"
 
 using namespace jam::inside;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "crunch/identify/polish.hpp"
+#include "crunch/phases.hpp"
 #include "crunch_scenes.hpp"
 
 namespace jam::inside {

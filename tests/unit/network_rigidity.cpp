@@ -5,7 +5,6 @@
 
 #include "analysis_networks.hpp"
 #include "rigidity_oracle.hpp"
-#include "verdict/check.hpp"
 #include "verdict/verdict.hpp"
 
 using namespace jam::inside;

@@ -1,14 +1,11 @@
 // Nested dissection: every order is a permutation and a function of the graph alone. On a square grid its fill keeps
 // the bound of the theory.
-#include "linalg/ordering.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "core/rng.hpp"
-#include "linalg/minimum_degree.hpp"
-#include "linalg/vertex_separator.hpp"
+#include "linalg/graph.hpp"
 #include "test.h"
 
 using namespace jam::inside;

@@ -4,8 +4,8 @@
 #include "test.h"
 
 #include "core/create.hpp"
+#include "core/pair_levels.hpp"
 #include "core/pair_rule.hpp"
-#include "core/pair_visit.hpp"
 #include "core/tuning.hpp"
 
 using namespace jam::inside;

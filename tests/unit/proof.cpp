@@ -6,16 +6,11 @@
 #include <cmath>
 #include <random>
 
-#include "linalg/shifted_factor.hpp"
+#include "linalg/block_cholesky.hpp"
 #include "lp/packing_lp.hpp"
 #include "proof/closing.hpp"
-#include "proof/find.hpp"
-#include "proof/free_rattler.hpp"
+#include "proof/expansion.hpp"
 #include "proof/newton.hpp"
-#include "proof/open_gaps.hpp"
-#include "proof/outward.hpp"
-#include "proof/refined_lp.hpp"
-#include "proof/theorem.hpp"
 // test.h comes last: it has a macro `fail`.
 #include "test.h"
 

@@ -3,7 +3,6 @@
 #include <complex>
 #include <map>
 
-#include "analysis/fourier_sums.hpp"
 #include "analysis/structure.hpp"
 #include "core/cell_change.hpp"
 #include "core/create.hpp"

@@ -6,10 +6,9 @@
 #include "core/cell_change.hpp"
 #include "core/error.hpp"
 #include "core/math.hpp"
-#include "core/motion.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/control.hpp"
-#include "crunch/spacing.hpp"
+#include "crunch/phases.hpp"
+#include "linalg/dot.hpp"
 
 namespace jam::inside {
 namespace {
@@ -24,19 +23,14 @@ Packing moved(const Packing &p, PairList &pairs, const LpSolution &x, double alp
 
 // Largest part by which a strain can shorten a vector.
 double shortening(const LpSolution &x, const StrainBasis &basis) {
-  double e2 = 0.0;
-  if (!x.strain.empty())
-    for (const double e : strain_matrix(basis, x.strain, 1.0)) e2 += e * e;
-  return std::sqrt(e2);
+  return x.strain.empty() ? 0.0 : norm(strain_matrix(basis, x.strain, 1.0));
 }
 
 // Upper bound of how much nearer any two spheres come at fixed cell: the two longest displacements.
 double closest_approach(const LpSolution &x, int dim, double unit) {
   double first = 0.0, second = 0.0;
   for (size_t k = 0; k < x.s.size(); k += dim) {
-    double s2 = 0.0;
-    for (int c = 0; c < dim; ++c) s2 += x.s[k + c] * x.s[k + c];
-    const double s = std::sqrt(s2) * unit;
+    const double s = std::sqrt(squared(&x.s[k], dim)) * unit;
     if (s > first)
       second = first, first = s;
     else if (s > second)

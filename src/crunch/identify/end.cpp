@@ -1,13 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <new>
 
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/control.hpp"
-#include "crunch/identify/polish.hpp"
 #include "crunch/phases.hpp"
 #include "verdict/text.hpp"
 

@@ -1,28 +1,17 @@
-#include "crunch/identify/polish.hpp"
+#include "crunch/phases.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/motion.hpp"
-#include "network/curved_maximum.hpp"
+#include "core/cell_change.hpp"
+#include "linalg/dot.hpp"
 #include "network/force_balance.hpp"
 #include "network/rigidity_matrix.hpp"
+#include "network/stress_cone.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {
 namespace {
-
-double largest(const std::vector<double> &x) {
-  double m = 0.0;
-  for (double v : x) m = std::max(m, std::fabs(v));
-  return m;
-}
-
-double norm(const std::vector<double> &x) {
-  double sum = 0.0;
-  for (double v : x) sum += v * v;
-  return std::sqrt(sum);
-}
 
 class Polish {
  public:
@@ -39,7 +28,7 @@ class Polish {
  private:
   PolishEnd try_contacts(Packing &p, ContactNetwork &net) {
     if (!close_all(p, net)) return PolishEnd::interrupted;
-    if (!(largest(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
+    if (!(largest_entry(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
     const bool round = p.container.curved() != 0;
     if (net.size() == 0 || (!round && excess_contacts(net, p) < 0)) return PolishEnd::too_few;
     balance_forces(p, net);
@@ -55,7 +44,7 @@ class Polish {
       return PolishEnd::negative_force;
     }
     if (closest_contact(p).gap < allowed_) return PolishEnd::overlap;
-    return largest(net.gap) > t_.closed_limit(p) ? PolishEnd::open_contact : PolishEnd::done;
+    return largest_entry(net.gap) > t_.closed_limit(p) ? PolishEnd::open_contact : PolishEnd::done;
   }
 
   // Contacts that do not close together leave gaps r that are orthogonal to all motions, and so balance. Forces f - t r
@@ -65,7 +54,7 @@ class Polish {
   bool drops_gap(const Packing &p, ContactNetwork &net, PolishEnd end) const {
     if (end != PolishEnd::open_contact && end != PolishEnd::overlap) return false;
     const bool open =
-        largest(net.gap) > t_.closed_limit(p) || *std::min_element(net.gap.begin(), net.gap.end()) < allowed_;
+        largest_entry(net.gap) > t_.closed_limit(p) || *std::min_element(net.gap.begin(), net.gap.end()) < allowed_;
     const int64_t excess = excess_contacts(net, p);
     if (!open || excess <= 0 || excess > t_.max_excess || !pushes_only(net)) return false;
     size_t weakest = net.size();
@@ -104,10 +93,10 @@ class Polish {
   // False when interrupted.
   bool close_all(Packing &p, ContactNetwork &net) {
     system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
-    const auto open = [&] { return excess_contacts(net, p) > 0 ? norm(net.gap) : largest(net.gap); };
+    const auto open = [&] { return excess_contacts(net, p) > 0 ? norm(net.gap) : largest_entry(net.gap); };
     double worst = open();
     for (int round = 0; round < Tuning::polish_steps && worst > Tuning::polish_end; ++round) {
-      log("polish %d largest gap %.2e", round, largest(net.gap));
+      log("polish %d largest gap %.2e", round, largest_entry(net.gap));
       if (monitor_ && monitor_->interrupted()) return false;
       Packing p_old = p;
       ContactNetwork old = net;
@@ -147,9 +136,9 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   ContactNetwork better = net;
   const PolishEnd end = polisher.close_and_balance(q, better);
   if (end != PolishEnd::done) return end;
-  if (monitor && largest(better.gap) > tuning.closed_limit(q))
+  if (monitor && largest_entry(better.gap) > tuning.closed_limit(q))
     monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(),
-                 largest(better.gap));
+                 largest_entry(better.gap));
   p = std::move(q);
   net = std::move(better);
   return PolishEnd::done;

@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
-#include "core/motion.hpp"
+#include "core/cell_change.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/approach/active_set.hpp"
-#include "crunch/path/neighbours.hpp"
-#include "crunch/path/schedule.hpp"
-#include "crunch/spacing.hpp"
+#include "crunch/phases.hpp"
+#include "linalg/dot.hpp"
 #include "lp/barrier_problem.hpp"
-#include "lp/path_matrix.hpp"
 
 namespace jam::inside {
 namespace {
@@ -114,9 +110,7 @@ class BarrierPath {
       const double c = b_.lp.c[k], *a = &b_.lp.a[k * p_.dim];
       b_.y[k] = std::min(std::max(b_.y[k], b_.mu / (t_.centrality * c)), t_.centrality * b_.mu / c);
       sum += b_.y[k];
-      double a2 = 0.0;
-      for (int q = 0; q < p_.dim; ++q) a2 += a[q] * a[q];
-      scale += b_.y[k] * std::sqrt(a2);
+      scale += b_.y[k] * std::sqrt(squared(a, p_.dim));
     }
     gap_ = b_.duality_gap();
     rest_ = 1.0 - sum;
@@ -252,6 +246,31 @@ class BarrierPath {
 BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &control, NewtonSystem &system,
                                       Monitor &monitor) {
   return BarrierPath(p, control, system, monitor).run();
+}
+
+// A saddle shows by steps that stay short while the decrement no longer falls. The first two steps at a new mu may be
+// short in any case. At a larger mu the same distance takes fewer steps.
+double BarrierSchedule::next_factor(const Step &last) {
+  if (steps_ == 0) short_steps_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
+  const bool falls = last.decrement < InteriorPointTuning::progress * least_;
+  if (steps_ > 0) {
+    least_ = std::min(least_, last.decrement);
+    if (last.decrement < t_.progress * mark_) short_steps_ = 0, mark_ = last.decrement;
+  }
+  if (steps_ > 2 && last.part < 0.5 && !falls) ++short_steps_;
+  ++steps_;
+  if (steps_ <= t_.max_steps_at_mu && short_steps_ < t_.max_short_steps) return 1.0;
+  steps_ = 0;
+  // Its part in Gamma is (1 - mu rows) log Gamma: at a large mu the function grows without bound as all spheres shrink.
+  if (last.mu_ratio < t_.increase) return t_.reduction;
+  ++increases_;
+  return t_.increase;
+}
+
+bool BarrierSchedule::centred(double decrement, double rows) {
+  if (!(decrement < t_.centred * rows)) return false;
+  steps_ = 0;
+  return true;
 }
 
 }  // namespace jam::inside

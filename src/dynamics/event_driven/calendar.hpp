@@ -3,9 +3,7 @@
 // 615 (2007)); a bad width costs O(log n). Of events at one time the sphere with the lower number comes first, so the
 // order follows from the times alone and is not part of a checkpoint.
 #pragma once
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include "core/archive.hpp"
 #include "dynamics/tuning.hpp"

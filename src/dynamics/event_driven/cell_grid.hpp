@@ -1,15 +1,12 @@
-// Equal cells of a cube, as many along each axis: they find the candidates of lists (list_cells.hpp), or take the place
+// Equal cells of a cube, as many along each axis: they find the candidates of lists (image_grid.hpp), or take the place
 // of lists (cell_mode.hpp).
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <vector>
 
 #include "core/archive.hpp"
 #include "core/math.hpp"
 #include "dynamics/event_driven/lattice.hpp"
-#include "dynamics/tuning.hpp"
 
 namespace jam::inside {
 

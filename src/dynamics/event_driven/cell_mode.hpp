@@ -2,8 +2,6 @@
 // leaving its cell is an event.
 #pragma once
 #include <algorithm>
-#include <array>
-#include <vector>
 
 #include "dynamics/event_driven/calendar.hpp"
 #include "dynamics/event_driven/cell_grid.hpp"

@@ -24,15 +24,11 @@
 // growth (begin, origin of time, rates); prefetch (loads memory ahead of its use); state (what is read of it); archive.
 #pragma once
 #include <memory>
-#include <vector>
 
-#include "core/archive.hpp"
+#include "core/instruction_set.hpp"
 #include "core/monitor.hpp"
-#include "core/packing.hpp"
 #include "dynamics/event_driven/calendar.hpp"
-#include "dynamics/event_driven/kernel/pair_kernel.hpp"
 #include "dynamics/observer.hpp"
-#include "dynamics/pressure.hpp"
 
 namespace jam::inside {
 

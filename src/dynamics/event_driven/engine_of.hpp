@@ -1,20 +1,9 @@
 // The engine of D dimensions, made of its parts (engine.hpp). Its functions are in the files that the comments name.
 #pragma once
-#include <array>
-#include <cmath>
-#include <memory>
-#include <vector>
-
-#include "dynamics/event_driven/cell_grid.hpp"
 #include "dynamics/event_driven/cell_mode.hpp"
-#include "dynamics/event_driven/clock.hpp"
-#include "dynamics/event_driven/engine.hpp"
-#include "dynamics/event_driven/lattice.hpp"
 #include "dynamics/event_driven/levels.hpp"
-#include "dynamics/event_driven/lists.hpp"
 #include "dynamics/event_driven/mari_kurchan.hpp"
 #include "dynamics/event_driven/pace.hpp"
-#include "dynamics/event_driven/spheres.hpp"
 #include "dynamics/event_driven/walls.hpp"
 
 namespace jam::inside {
@@ -118,8 +107,6 @@ class EngineOf final : public Engine, private Units<O> {
   void count_momenta() const;
   void count_momentum(const Body<D> &b, int32_t i, double sign);
   void check_pairs() const;
-
-  // -- archive.hpp
   void check_archive();
 
   EngineOptions options_;

@@ -3,7 +3,6 @@
 #include <cstdlib>
 
 #include "core/call_scope.hpp"
-#include "core/error.hpp"
 #include "core/math.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 

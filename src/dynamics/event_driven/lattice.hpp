@@ -1,10 +1,7 @@
 // Lattice vectors of the periodic cell in the integer coordinates of the engine with offsets (engine.hpp).
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "core/cell.hpp"
 #include "dynamics/event_driven/kernel/pair_kernel.hpp"

@@ -4,12 +4,9 @@
 #pragma once
 #include <algorithm>
 #include <type_traits>
-#include <vector>
 
 #include "core/pair_levels.hpp"
-#include "dynamics/event_driven/cell_grid.hpp"
 #include "dynamics/event_driven/image_grid.hpp"
-#include "dynamics/event_driven/list_cells.hpp"
 
 namespace jam::inside {
 

@@ -1,12 +1,9 @@
 // The neighbour lists of the engine: where each was made, how far it reaches and whom it holds.
 #pragma once
 #include <algorithm>
-#include <array>
-#include <vector>
 
 #include "core/call_scope.hpp"
 #include "dynamics/event_driven/lattice.hpp"
-#include "dynamics/tuning.hpp"
 
 namespace jam::inside {
 

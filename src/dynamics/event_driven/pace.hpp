@@ -2,7 +2,6 @@
 // a bucket of the calendar by it.
 #pragma once
 #include <algorithm>
-#include <vector>
 
 #include "core/math.hpp"
 #include "dynamics/event_driven/engine.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/call_scope.hpp"
-#include "core/math.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 
 namespace jam::inside {

@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <vector>
 
 #include "core/pair_rule.hpp"
-#include "dynamics/event_driven/kernel/pair_kernel.hpp"
 #include "dynamics/event_driven/lattice.hpp"
-#include "dynamics/tuning.hpp"
 
 namespace jam::inside {
 

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "core/pair_rule.hpp"
-
 namespace jam::inside {
 
 namespace {

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/error.hpp"
 #include "core/limits.hpp"
-#include "core/math.hpp"
 #include "core/rng.hpp"
 #include "dynamics/tuning.hpp"
 

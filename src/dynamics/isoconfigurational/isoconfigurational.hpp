@@ -8,16 +8,7 @@
 // A run depends on the packing, its seed and the run's number only. Runs enter the sums in the order of their numbers,
 // and blocks begin at multiples of `block`. So any two ways to make the same blocks give the same bits.
 #pragma once
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "core/archive.hpp"
 #include "core/call_scope.hpp"
-#include "core/monitor.hpp"
-#include "core/packing.hpp"
-#include "dynamics/dynamics.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
 
 namespace jam::inside {
@@ -80,9 +71,9 @@ auto make_engine_for(const RunControl &control, RunRecord &record, Make &&make) 
 
 // Sets what depends on displacements alone: the MSD, F_s and overlap columns of instant m.
 void take_moments(const RunPlan &plan, size_t m, RunRecord &record);
-// One run of event-driven dynamics, event_driven_run.cpp.
+// One run of event-driven dynamics.
 void run_molecular_dynamics(const RunPlan &plan, int64_t run, const RunControl &control, RunRecord &record);
-// One Metropolis run, metropolis_run.cpp.
+// One Metropolis run.
 void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control, RunRecord &record);
 // Maxwell-Boltzmann velocities of run k: zero total momentum, twice the kinetic energy exactly d n T.
 void draw_run_velocities(Packing &p, int64_t run, double temperature);

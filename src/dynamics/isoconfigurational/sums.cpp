@@ -1,8 +1,6 @@
 // Isoconfigurational ensemble: options, the moments of one run, and sums over runs.
 #include <cmath>
 
-#include "core/checks.hpp"
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"

@@ -3,13 +3,9 @@
 // Coordinates are integers with 2^64 to each cell vector, so that differences wrap by themselves and moving there and
 // back gives the same bits. Lengths are in V^(1/d).
 #pragma once
-#include <array>
 #include <cmath>
-#include <cstdint>
-#include <vector>
 
 #include "core/cell.hpp"
-#include "core/error.hpp"
 #include "core/limits.hpp"
 #include "dynamics/tuning.hpp"
 

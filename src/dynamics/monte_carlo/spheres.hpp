@@ -5,14 +5,10 @@
 
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
-#include "core/error.hpp"
-#include "core/math.hpp"
 #include "core/pair_rule.hpp"
-#include "dynamics/monte_carlo/cells.hpp"
 #include "dynamics/monte_carlo/geometry.hpp"
 #include "dynamics/monte_carlo/levels.hpp"
 #include "dynamics/monte_carlo/monte_carlo.hpp"
-#include "dynamics/tuning.hpp"
 
 namespace jam::inside {
 

@@ -1,7 +1,6 @@
 // The Metropolis trials: energies, moves and swaps. Copies of trials.cpp.in compile them,
 // one a dimension.
 #pragma once
-#include "core/math.hpp"
 #include "core/pair_energy.hpp"
 #include "core/rng.hpp"
 #include "dynamics/monte_carlo/spheres.hpp"

@@ -2,7 +2,6 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 
 #include "linalg/blas.hpp"
 #include "linalg/blas/vector.hpp"

@@ -3,7 +3,6 @@
 // sets (portable.cpp, avx2.cpp, avx512.cpp), which give the same bits.
 #pragma once
 #include <cstddef>
-#include <cstdint>
 
 #include "core/instruction_set.hpp"
 

@@ -1,4 +1,4 @@
-#include "pore/images.hpp"
+#include "pore/balls.hpp"
 
 #include <cmath>
 

@@ -190,16 +190,6 @@ class ManySpheres(InFolder):
             report = s.write_voxels(f"{self.folder}/c.npy", size=0.01)
             self.assertLess(abs(1 - report.porosity - whole[0]), 3e-3, name)
 
-    def test_shares_of_voxels(self):
-        for name, dim, options in SCENES[:5]:
-            s = self.scene(dim, options)
-            shares, centres = s.image(size=0.05, lines=16), s.image(size=0.05 / 8)
-            fine = centres.reshape([v for m in shares.shape for v in (m, centres.shape[0] // shares.shape[0])])
-            mean = fine.mean(tuple(range(1, 2 * dim, 2))) if fine.size == centres.size else None
-            if mean is not None:
-                self.assertLess(np.abs(mean - shares).max(), 0.08, name)
-            self.assertTrue(((shares >= 0) & (shares <= 1 + 1e-6)).all())
-
     def test_non_additive_mixtures(self):
         """Contacts at (1 + D) times the sum of the radii: for D < 0 unlike spheres in contact overlap."""
         for dim in (2, 3):

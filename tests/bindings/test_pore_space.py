@@ -119,11 +119,6 @@ class Mesh(InFolder):
         s = jam.System.from_arrays([[half, 0, 0.25]], 0.9)
         self.mesh(s)
 
-    def test_containers_do_not_cut(self):
-        s = jam.System.random(50, packing_fraction=0.25, container="cylinder", cell=[1, 1, 2])
-        report = self.mesh(s)
-        self.assertAlmostEqual(report.solid, s.packing_fraction * s.info.volume, 12)
-
     def test_refusals(self):
         s = jam.System.random(20, packing_fraction=0.1)
         with self.assertRaises(jam.errors.StateError):
@@ -232,11 +227,6 @@ class Pores(unittest.TestCase):
             self.assertTrue(held.any())
             np.testing.assert_allclose(p.radius[held], widest, atol=1e-9)
             self.assertTrue((p.radius[~held] < widest + 1e-9).all() and (p.radius >= p.distance).all())
-
-    def test_body_centred_lattice(self):
-        s = jam.System.from_arrays([[0, 0, 0], [0.5, 0.5, 0.5]], 0.8, cell=np.eye(3), dim=3)
-        p = s.pore_sizes(2000, 1)
-        self.assertAlmostEqual(p.radius.max(), math.sqrt(5) / 4 - 0.4, 9)
 
     def test_one_sphere_in_a_tube(self):
         """Spheres as wide as the tube fit above and below; a point between is in one of them or has a smaller radius."""

@@ -89,12 +89,6 @@ class Maximum(unittest.TestCase):
         self.assertLess(abs(again.maximise_radii(room=1e-6).value - value), 1e-14)
         self.assertLess(abs(again.positions - s.positions).max(), 1e-12)
 
-    def test_the_same_start_ends_at_the_same_bits(self):
-        first, second = box(15, seed=4), box(15, seed=4)
-        first.maximise_radii(), second.maximise_radii()
-        np.testing.assert_array_equal(first.positions, second.positions)
-        np.testing.assert_array_equal(first.diameters, second.diameters)
-
 
 class Refused(unittest.TestCase):
     def refused(self, system, error, text, *given, **options):
@@ -150,32 +144,16 @@ class Refused(unittest.TestCase):
 
 
 class Stops(unittest.TestCase):
-    def stopped(self, reason, status, **options):
-        s = box(20, seed=2)
-        report = s.maximise_radii(**options)
-        self.assertEqual((report.stop_reason.name, s.calls[-1]["status"]), (reason, status))
-        self.assertFalse(report.maximum)
-        self.assertEqual((report.contacts, report.rattlers, report.at_bounds, report.excess), (-1, -1, -1, -1))
-        self.assertTrue(np.isnan(report.min_gap))
-        self.assertGreater(least_exact_gap(s), 0)
-        with self.assertRaises(jam.errors.StateError):
-            s.contacts
-        self.assertTrue(s.maximise_radii().maximum)  # and goes on from there
-
-    def test_each_limit_leaves_a_valid_packing(self):
-        self.stopped("STEPS", "limit", max_steps=3)
-        self.stopped("WALL_TIME", "limit", wall_time=1e-9)
-        self.stopped("CANCELLED", "cancelled", progress=lambda p: True)
-
     def test_moments_and_volume_are_kept_and_walls_not_crossed(self):
         sizes = np.random.default_rng(2).uniform(0.6, 1.4, 30)
         for scene, options in (
             ({"diameters": sizes}, {"moments": (1, 2, 3), "max_steps": 7}), ({"n": 12}, {"strain": "free", "max_steps": 12}),
-            ({"n": 9, "container": "ball"}, {"max_steps": 4}), ({"n": 9, "container": "ball"}, {"max_steps": 15}),
+            ({"n": 9, "container": "ball"}, {"max_steps": 4}), ({"n": 20, "walls": "xy"}, {"wall_time": 1e-9}),
         ):
             s = jam.System.random(dim=2, seed=2, **scene)
             before, report = s.diameters / 2, s.maximise_radii(**options)
-            self.assertFalse(report.maximum)
+            self.assertEqual((report.maximum, report.contacts, s.calls[-1]["status"]), (False, -1, "limit"))
+            self.assertEqual(report.stop_reason.name, "WALL_TIME" if "wall_time" in options else "STEPS")
             self.assertGreater(least_exact_gap(s), 0)
             for q in options.get("moments", ()):
                 self.assertLess(abs(((s.diameters / 2) ** q).sum() / (before**q).sum() / report.value**q - 1), 1e-14)

@@ -5,7 +5,6 @@ from fractions import Fraction
 import jam
 import numpy as np
 from radii_oracle import Programme, least_exact_gap
-from scipy.optimize import minimize
 
 SQUARE, CUBE = {"dim": 2, "walls": "xy"}, {"dim": 3, "walls": "xyz"}
 CIRCLE, BALL, TUBE = {"dim": 2, "container": "ball"}, {"dim": 3, "container": "ball"}, {"dim": 3, "container": "cylinder"}
@@ -104,26 +103,6 @@ class Moments(unittest.TestCase):
         before = by_sum.diameters.sum() / 2
         by_sum.maximise_radii()
         self.assertLess(abs(by_moment.maximise_radii(moments=[1]).value * before / by_sum.diameters.sum() * 2 - 1), 1e-13)
-
-    def test_no_other_method_finds_more_nearby(self):
-        """Sequential quadratic programming from the end moved a little: positions, radii, ln lambda."""
-        n, by = 4, Programme(4, [1, 1], "xy")
-        s = mixture(n, 2, "xy", 3)
-        before = s.diameters / 2
-        report = s.maximise_radii(moments=(1, 2))
-
-        def kept(v):
-            radii = v[:-1].reshape(n, 3)[:, 2]
-            return [np.log((radii**q).sum() / (before**q).sum()) / q - v[-1] for q in (1, 2)]
-
-        end = np.append(np.c_[s.positions, s.diameters / 2].ravel(), np.log(report.value))
-        rng, most = np.random.default_rng(2), 0.0
-        rules = [{"type": "ineq", "fun": lambda v: by.gaps(v[:-1])}, {"type": "eq", "fun": kept}]
-        for _ in range(10):
-            made = minimize(lambda v: -v[-1], end + 0.01 * rng.normal(size=end.size), constraints=rules, method="SLSQP")
-            if made.success and by.gaps(made.x[:-1]).min() > -1e-9 and abs(made.x - end).max() < 0.03:
-                most = max(most, made.x[-1])
-        self.assertLess(abs(most - end[-1]), 1e-6)
 
     def test_moments_are_exact_where_they_change_by_much(self):
         """Sums of negative powers fall to 1e-7 of those at the start; the fractions are exact."""

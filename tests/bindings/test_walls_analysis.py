@@ -1,4 +1,4 @@
-"""Strict jamming, elastic moduli, bond order, files and slides of scenes with walls, against numpy and scipy."""
+"""Strict jamming, elastic moduli, slides and files of scenes with walls, against numpy and scipy."""
 import importlib.util
 import os
 import subprocess
@@ -82,20 +82,6 @@ class Elasticity(unittest.TestCase):
             else:
                 with self.assertRaisesRegex(jam.errors.UnsupportedError, "this scene has 1"):
                     s.moduli()
-
-
-class Structure(unittest.TestCase):
-    def test_bonds_are_of_two_spheres(self):
-        s = start("box", 40, 2)
-        s.crunch()
-        q = s.bond_order(6, 1.3)
-        x, reach = s.positions, 1.3 * s.diameters[0]
-        for i in range(s.n):
-            v = np.delete(x, i, 0) - x[i]
-            length = np.linalg.norm(v, axis=1)
-            angle = np.arctan2(*v[length < reach].T[::-1])
-            if len(angle):
-                self.assertAlmostEqual(abs(np.exp(6j * angle).mean()), q[i], 9)
 
 
 class Slides(unittest.TestCase):
@@ -198,13 +184,10 @@ class Files(unittest.TestCase):
 
 @unittest.skipUnless("JAM_PACK" in os.environ, "needs jam-pack")
 class CommandLine(unittest.TestCase):
-    def run_pack(self, *options):
-        return subprocess.run([os.environ["JAM_PACK"], *options], capture_output=True, text=True, check=False)
-
     def test_tables_of_walled_packings(self):
         with tempfile.TemporaryDirectory() as folder:
             options = ["--n", "40", "--container", "ball", "--quiet", "--output", f"{folder}/a.data", "--structure", f"{folder}/s.csv", "--gaps", f"{folder}/g.csv"]
-            made = self.run_pack(*options)
+            made = subprocess.run([os.environ["JAM_PACK"], *options], capture_output=True, text=True, check=False)
             self.assertEqual(made.returncode, 0, made.stderr)
             s = jam.System.read(f"{folder}/a.data")
             self.assertEqual(s.info.container, 2)

@@ -39,6 +39,12 @@ static inline jam_info info_of(const jam_system *sys) {
   return info;
 }
 
+static inline void expect_cell(const jam_system *sys, const double *want, size_t count) {
+  double cell[JAM_MAX_DIM * JAM_MAX_DIM];
+  assert_int_equal(jam_get_cell(sys, cell, count, NULL), JAM_OK);
+  assert_memory_equal(cell, want, count * sizeof *want);
+}
+
 static inline const double *view_of(const jam_system *sys, int32_t kind) {
   const double *view = NULL;
   size_t len;

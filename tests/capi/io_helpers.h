@@ -124,6 +124,12 @@ static inline void expect(jam_system *sys, int32_t dim, int64_t n, const double 
   jam_destroy(sys);
 }
 
+/* The system, whose notes have this part. */
+static inline jam_system *noted(jam_system *sys, const char *part) {
+  if (!strstr(jam_notes(sys), part)) fail_msg("'%s' does not contain '%s'", jam_notes(sys), part);
+  return sys;
+}
+
 /* n spheres at random, diameters 50:50 with the given ratio. */
 static inline jam_system *some_packing(int32_t dim, int64_t n, double ratio, double box) {
   double *diameters = (double *)malloc((size_t)n * sizeof *diameters);

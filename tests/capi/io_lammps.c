@@ -50,9 +50,7 @@ CASE(lammps_writes_it_otherwise) {
       "Atoms # sphere\n\n3 1 0.5 1.9 2 4 3 0 0 0\n1 1 1 1.9 -0.5 1.5 0.5 0 0 1\n2 2 0.25 1.9 1 3 2 0 0 0\n\n"
       "Velocities\n\n1 0 0 0 0 0 0\n2 0 0 0 0 0 0\n3 0 0 0 0 0 0\n";
   const double want[9] = {0.5, 0.5, 0.5, 2, 2, 2, 3, 3, 3}, sizes[3] = {1.0, 0.25, 0.5};
-  jam_system *sys = read_text(text);
-  assert_non_null(strstr(jam_notes(sys), "sorted by their ids"));
-  same_spheres(sys, 3, 3, want, sizes, 4.0);
+  same_spheres(noted(read_text(text), "sorted by their ids"), 3, 3, want, sizes, 4.0);
 }
 
 CASE(tilts_are_kept) {
@@ -61,11 +59,9 @@ CASE(tilts_are_kept) {
       HEAD BOX "0.5 0 0 xy xz yz tilt\n" ROWS,
       HEAD "2 0 0 avec\n0.5 2 0 bvec\n0 0 2 cvec # rows\n" ROWS,
   };
-  double cell[9];
   for (size_t k = 0; k < 2; ++k) {
     OWNED jam_system *sys = read_text(texts[k]);
-    jam_get_cell(sys, cell, 9, NULL);
-    assert_memory_equal(cell, want, sizeof want);
+    expect_cell(sys, want, 9);
   }
 }
 
@@ -97,10 +93,10 @@ CASE(data_that_cannot_be_read) {
 
 /* Rows of atom_style full have as many columns as those of sphere: id, molecule, type, charge. */
 CASE(a_section_without_style) {
-  jam_system *sys =
-      read_text(HEAD BOX "\nAtoms\n\n1 1 0.2 1 0.1 0.2 0.3\n2 1 0.2 1 1.6 1.7 1.8\n3 1 0.2 1 0.35 0.9 0.15\n");
-  assert_non_null(strstr(jam_notes(sys), "warning: the section Atoms names no style: atom_style sphere was assumed"));
-  same_spheres(sys, 3, 3, three, size, 2.0);
+  same_spheres(
+      noted(read_text(HEAD BOX "\nAtoms\n\n1 1 0.2 1 0.1 0.2 0.3\n2 1 0.2 1 1.6 1.7 1.8\n3 1 0.2 1 0.35 0.9 0.15\n"),
+            "warning: the section Atoms names no style: atom_style sphere was assumed"),
+      3, 3, three, size, 2.0);
 #define FULL "t\n\n2 atoms\n2 atom types\n0 9 xlo xhi\n0 9 ylo yhi\n0 9 zlo zhi\n\nAtoms\n\n"
   expect_refused(FULL "1 1 1 0.0 1 2 3\n2 1 2 0.0 6 7 8\n", JAM_E_FORMAT, "line 11: the density is '0.0'");
   expect_refused(FULL "1 1 1 0.4 1 2 3\n2 1 2 0.4 6 7 8\n", JAM_E_FORMAT, "write 'Atoms # sphere'");
@@ -147,8 +143,7 @@ CASE(tilted_dumps) {
   sys = read_text(
       "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n1\nITEM: BOX BOUNDS xy xz yz pp pp pp\n0 2.5 0.5\n0 2 0\n-0.5 0.5 0\n"
       "ITEM: ATOMS radius xs ys zs\n0.1 0.125 0.2 0.5\n");
-  jam_get_cell(sys, cell, 4, NULL);
-  assert_memory_equal(cell, flat, sizeof flat);
+  expect_cell(sys, flat, 4);
   const double *x = view_of(sys, JAM_VIEW_POSITIONS);
   assert_true(fabs(x[0] - at[0]) < 1e-15 && fabs(x[1] - at[1]) < 1e-15);
 }

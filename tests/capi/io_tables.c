@@ -53,41 +53,34 @@ CASE(headings) {
 CASE(what_the_caller_says) {
   static const char rows[] = "-2 -2 -3.5 1 .2\n-1 -1 -2.5 2 .25\n";
   static const double moved[] = {0.5, 0.5, 0.5, 1.5, 1.5, 1.5};
-  double cell[9], want[9] = {5, 0, 0, 0, 5, 0, 0, 0, 8};
-  size_t needed;
+  static const double tall[9] = {5, 0, 0, 0, 5, 0, 0, 0, 8}, tilted[4] = {2, 0, 0.5, 3};
   jam_system *sys = read_as(rows, "cell=5,5,8 origin=-2.5,-2.5,-4 columns=x,y,z,mass,radius", NULL);
-  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
-  assert_memory_equal(cell, want, sizeof cell);
+  expect_cell(sys, tall, 9);
   assert_non_null(strstr(jam_notes(sys), "mass"));
-  assert_non_null(strstr(jam_notes(sys), "-2.5 -2.5 -4"));
-  expect(sys, 3, 2, moved, sizes);
+  expect(noted(sys, "-2.5 -2.5 -4"), 3, 2, moved, sizes);
   /* rows of MFIX have no names: x y z radius density u v w */
-  sys = read_in(".5 .5 .5 .2 2500 0 0 0\n1.5 1.5 1.5 .25 2500 0 0 0\n", "cell=3,3,3 columns=x,y,z,radius,density,u,v,w",
-                1.0);
-  assert_non_null(strstr(jam_notes(sys), "not read: density, u, v, w"));
-  expect(sys, 3, 2, two, sizes);
+  expect(noted(read_in(".5 .5 .5 .2 2500 0 0 0\n1.5 1.5 1.5 .25 2500 0 0 0\n",
+                       "cell=3,3,3 columns=x,y,z,radius,density,u,v,w", 1.0),
+               "not read: density, u, v, w"),
+         3, 2, two, sizes);
   /* Rocky's word for the diameter of a sphere is quoted */
-  sys = read_as("x,y,z,Particle Size (m)\n.5,.5,.5,.4\n1.5,1.5,1.5,.5\n", "cell=3,3,3", NULL);
-  assert_non_null(strstr(jam_notes(sys), "the column 'Particle Size (m)' was taken as the diameter"));
-  expect(sys, 3, 2, two, sizes);
+  expect(noted(read_as("x,y,z,Particle Size (m)\n.5,.5,.5,.4\n1.5,1.5,1.5,.5\n", "cell=3,3,3", NULL),
+               "the column 'Particle Size (m)' was taken as the diameter"),
+         3, 2, two, sizes);
   /* a row may begin with a word; a heading that columns= replaces is named */
   sys = read_as("x 0.5 0.5 0.5 .2\ny 1.5 1.5 1.5 .25\n", "cell=5,5,8 columns=name,x,y,z,radius", NULL);
   assert_null(strstr(jam_notes(sys), "heading"));
   expect(sys, 3, 2, two, sizes);
-  sys = read_in("# grains\nname X Y Z D\nb 0.5 0.5 0.5 .2\nc 1.5 1.5 1.5 .25\n", "cell=5,5,8 columns=name,x,y,z,radius",
-                1.0);
-  assert_non_null(strstr(jam_notes(sys), "line 2, 'name X Y Z D', has no number and was taken as a heading"));
-  expect(sys, 3, 2, two, sizes);
+  expect(noted(read_in("# grains\nname X Y Z D\nb 0.5 0.5 0.5 .2\nc 1.5 1.5 1.5 .25\n",
+                       "cell=5,5,8 columns=name,x,y,z,radius", 1.0),
+               "line 2, 'name X Y Z D', has no number and was taken as a heading"),
+         3, 2, two, sizes);
   sys = read_as("x y r\n.5 .5 .1\n", "cell=2,0,0.5,3", NULL);
-  want[0] = 2, want[1] = 0, want[2] = 0.5, want[3] = 3;
-  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
-  assert_memory_equal(cell, want, 4 * sizeof *cell);
+  expect_cell(sys, tilted, 4);
   jam_destroy(sys);
   /* Yade names its periodic cell in a comment */
   sys = read_as("##PERIODIC:: 5 5 8\n#format x_y_z_r\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n", "", NULL);
-  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
-  want[0] = 5, want[2] = 0, want[3] = 0, want[4] = 5;
-  assert_memory_equal(cell, want, sizeof cell);
+  expect_cell(sys, tall, 9);
   expect(sys, 3, 2, two, sizes);
   expect(read_as("x y z r\n.5 .5 .5 .2\n1.5 1.5 1.5 .25\n", "cell=3,3,3", NULL), 3, 2, two, sizes);
   /* plain text and XYZ have no origin of their own */
@@ -110,25 +103,19 @@ CASE(what_the_caller_says) {
 CASE(disks_in_a_plane) {
   static const double flat[] = {1, 1, 1, 2.5, 4, 4}, widths[] = {1, 0.75, 1};
   static const char text[] = "x y z r\n1 1 0.5 0.5\n1 2.5 0.5 0.375\n4 4 0.5 0.5\n";
-  OWNED jam_system *sys = read_in(text, "", 5.0);
-  assert_non_null(strstr(jam_notes(sys), "d = 2"));
-  expect(sys, 2, 3, flat, widths);
+  expect(noted(read_in(text, "", 5.0), "d = 2"), 2, 3, flat, widths);
   expect(read_as(text, "cell=5,5", NULL), 2, 3, flat, widths);
-  sys = read_as(text, "cell=5,5,5", NULL); /* a third side keeps the third direction */
+  OWNED jam_system *sys = read_as(text, "cell=5,5,5", NULL); /* a third side keeps the third direction */
   assert_null(strstr(jam_notes(sys), "d = 2"));
 }
 
 CASE(cells_of_torquato_and_jiao) {
   static const double x[] = {0.1, 0.2, 0.3, 1.6, 0.7, 0.1}, widths[] = {0.3, 0.3};
   const double want[9] = {2, 0, 0, 0.25, 1, 0, 0, 0, 1};
-  double cell[9];
-  size_t needed;
   jam_system *sys =
       read_as("3\n2\n0.3\n2\t0\t0\t\n0.25\t1\t0\t\n0\t0\t1\t\n0.1\t0.2\t0.3\t\n1.6\t0.7\t0.1\t\n", "", NULL);
-  assert_non_null(strstr(jam_notes(sys), "Torquato and Jiao"));
-  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
-  assert_memory_equal(cell, want, sizeof cell);
-  expect(sys, 3, 2, x, widths);
+  expect_cell(sys, want, 9);
+  expect(noted(sys, "Torquato and Jiao"), 3, 2, x, widths);
   /* another number of rows is an error, with the line of the first */
   expect_refused("3\n1\n0.3\n1 0 0\n0 1 0\n", JAM_E_FORMAT, "line 5: there is more after the 1 spheres");
   expect_refused("2\n1\n0.3\n1 0\n0 1\n.5 .5\n.2 .2\n", JAM_E_FORMAT, "line 7: there is more after the 1 spheres");
@@ -181,18 +168,13 @@ CASE(data_of_mercury_dpm) {
       "2 0.5 -1 -1 -1 1 2 3\n-.5 -.5 -.5 9 9 9 .2 0 0 0 1 1 1 0\n.5 .5 .5 8 8 8 .25 0 0 0 1 1 1 1\n";
   static const double flat[] = {0.5, 0.5, 1.5, 1.5};
   static const char disks[] = "0 0 -1 -1 1 2\n2 0.5 -1 -1 1 2\n-.5 -.5 9 9 .2 0 1 0\n.5 .5 8 8 .25 0 1 1\n";
-  double cell[9];
-  size_t needed;
   jam_system *sys = read_as(disks, "", NULL);
-  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
-  assert_memory_equal(cell, ((double[]){2, 0, 0, 3}), 4 * sizeof *cell);
+  expect_cell(sys, ((double[]){2, 0, 0, 3}), 4);
   expect(sys, 2, 2, flat, sizes);
   expect(read_as(strchr(disks, '\n') + 1, "", NULL), 2, 2, flat, sizes);
   sys = read_as(frame, "", NULL);
-  assert_int_equal(jam_get_cell(sys, cell, 9, &needed), JAM_OK);
-  assert_memory_equal(cell, want, sizeof cell);
-  assert_non_null(strstr(jam_notes(sys), "the corner of the cell is at -1 -1 -1"));
-  expect(sys, 3, 2, moved, sizes);
+  expect_cell(sys, want, 9);
+  expect(noted(sys, "the corner of the cell is at -1 -1 -1"), 3, 2, moved, sizes);
   expect_refused("1 0 0 0 0 1 1 1\n.5 .5 .5 0 0 0 .2 0 0 0 0 0 0 0\n.5 .5\n", JAM_E_FORMAT, "where a frame begins");
   expect_refused("2 0 0 0 0 1 1 1\n.5 .5 .5 0 0 0 .2 0 0 0 0 0 0 0\n", JAM_E_FORMAT, "after 1 of 2 spheres");
   expect_refused("1 0 0 0 0 1\n.5 .5 0 0 .2 0 0 0\n", JAM_E_FORMAT, "no extent along x");

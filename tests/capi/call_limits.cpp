@@ -77,7 +77,7 @@ CASE(fractions_out_of_reach) {
     jam_system *sys = nullptr;
     SAYS(jam_create(&o, nullptr, &sys), JAM_E_UNPLACEABLE, "ends near");
   }
-  OWNED jam_system *one = random_spheres(3, 1, 0.5, 1);  // 1.3 times saturation
+  jam_destroy(random_spheres(3, 1, 0.5, 1));  // 1.3 times saturation
 }
 
 CASE(memory_limit_of_a_call) {

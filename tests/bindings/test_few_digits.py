@@ -6,7 +6,7 @@ import numpy as np
 
 import jam
 from jam import CheckReason, Verdict
-from packings import fluid, packing, state, fcc
+from packings import fluid, packing, state
 
 
 class FewDigits(unittest.TestCase):
@@ -53,11 +53,6 @@ class FewDigits(unittest.TestCase):
                 np.round(x, 6), diameters, cell=cell, overlap="shrink", non_additivity=more.get("non_additivity", 0.0)
             )
             self.assertEqual(t.check(crunch=False).jammed, Verdict.UNDECIDED)
-        x, cell = fcc(3)
-        for drop in ((), (5,)):
-            y = np.delete(np.round(x / cell[0, 0], 6), list(drop), axis=0)
-            t = jam.System.from_arrays(y, 1 / cell[0, 0], overlap="shrink")
-            self.assertNotEqual(t.check(crunch=False).jammed, Verdict.NO)
 
     def test_digits_of_radii_and_cell(self):
         """Centres with all digits beside rounded radii, a rounded cell, or some rounded centres."""

@@ -98,12 +98,6 @@ class Moments(unittest.TestCase):
         self.assertTrue(crunched.jammed)
         self.assertLess(abs(crunched.packing_fraction / report.packing_fraction - 1), 1e-12)
 
-    def test_the_first_moment_alone_is_the_sum(self):
-        by_sum, by_moment = (jam.System.random(n=12, seed=4, **SQUARE) for _ in range(2))
-        before = by_sum.diameters.sum() / 2
-        by_sum.maximise_radii()
-        self.assertLess(abs(by_moment.maximise_radii(moments=[1]).value * before / by_sum.diameters.sum() * 2 - 1), 1e-13)
-
     def test_moments_are_exact_where_they_change_by_much(self):
         """Sums of negative powers fall to 1e-7 of those at the start; the fractions are exact."""
         s = jam.System.random(n=2, dim=2, walls="xy", seed=1, diameters=[1, 3.0], packing_fraction=0.01)

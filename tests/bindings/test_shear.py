@@ -1,6 +1,4 @@
 """Stress and quasi-static shear: against sums over pairs, finite differences, elastic moduli, and the way back."""
-from __future__ import annotations
-
 import contextlib
 import importlib.util
 import io

@@ -6,14 +6,13 @@ import unittest
 
 import jam
 import numpy as np
-from wall_scenes import SCENES, energy, overlaps
+from wall_scenes import SCENES, energy, overlaps, start
 
 ALPHAS = {"relative": 2.0, "absolute": 2.5, "bare": 1.5}
 
 
 def soft(name, n, seed, phi, unequal=True):
-    sizes = {"diameters": 0.5 + 0.6 * (0.618 * np.arange(n) % 1)} if unequal else {}
-    return jam.System.random(n=n, seed=seed, packing_fraction=phi, overlap="allow", **sizes, **SCENES[name])
+    return start(name, n, seed, phi, unequal=unequal, overlap="allow")
 
 
 def dense(name):

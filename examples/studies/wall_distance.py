@@ -39,6 +39,12 @@ def jammed(d, n, seed, height):
         return (packing.cell[-1, -1] / packing.diameters.mean(), packing.packing_fraction) if report.jammed else None
 
 
+def point(d, n, seeds, height):
+    """H, phi_J and its error over packings, and how many of them are jammed."""
+    found = [f for seed in range(1, seeds + 1) if (f := jammed(d, n, seed, height))]
+    return [np.mean([f[0] for f in found]), *mean_error([f[1] for f in found])], len(found)
+
+
 def mean_error(values):
     return np.mean(values), np.std(values, ddof=1) / len(values) ** 0.5
 
@@ -53,12 +59,11 @@ def fit(x, y, error):
 
 
 def disks(n, seeds, result):
-    periodic = mean_error([f[1] for seed in range(1, 2 * seeds + 1) if (f := jammed(2, n, seed, None))])
+    periodic = point(2, n, 2 * seeds, None)[0][1:]
     print(f"periodic: {periodic[0]:.5f} +- {periodic[1]:.5f}")
     points = []
     for height in (4, 7, 10, 14):
-        found = [f for seed in range(1, seeds + 1) if (f := jammed(2, n, seed, height))]
-        points.append([np.mean([f[0] for f in found]), *mean_error([f[1] for f in found])])
+        points.append(point(2, n, seeds, height)[0])
         h, phi, error = points[-1]
         print(f"H = {h:.2f}: phi = {phi:.5f} +- {error:.5f}, (phi_periodic - phi) H = {(periodic[0] - phi) * h:.4f}", flush=True)
     rows = [[float(h), {"value": float(phi), "error": float(e)}, float((periodic[0] - phi) * h), None, None] for h, phi, e in points]
@@ -90,11 +95,10 @@ def main():
         n *= 4 if o.large else 1
         points, fewest = [], seeds
         for height in (None, *DISTANCES):
-            found = [f for seed in range(1, seeds + 1) if (f := jammed(d, n, seed, height))]
-            points.append([np.mean([f[0] for f in found]), *mean_error([f[1] for f in found])])
-            fewest = min(fewest, len(found))
-            lost = "" if len(found) == seeds else f"; {seeds - len(found)} of {seeds} packings are not jammed and left out"
-            print(f"d = {d}, H = {height or 'periodic'}: phi_J {points[-1][1]:.5f} +- {points[-1][2]:.5f}{lost}", flush=True)
+            found, there = point(d, n, seeds, height)
+            points.append(found)
+            fewest = min(fewest, there)
+            print(f"d = {d}, H = {height or 'periodic'}: phi_J {found[1]:.5f} +- {found[2]:.5f}, {there} of {seeds} packings jammed", flush=True)
         bulk, walled = points[0], np.array(points[1:])
         x, y, error = 1 / walled[:, 0], walled[:, 1], walled[:, 2]
         used = walled[:, 0] >= LEAST * 0.97

@@ -10,21 +10,22 @@ from jam import near_jamming as nj
 
 # ---- options
 
-LARGE = {"runs": 5000, "mc_runs": 1000}  # what --large makes
+LARGE = {"runs": 5000}  # what --large makes
 LAST_SWEEP = 250  # as published
 
 
-def arguments(doc, result=False, **small):
-    """Options of a study. small: runs it makes unless --large or --runs N is given, e.g. runs=100, mc_runs=40; result: whether it takes
-    --result FILE.json#NAME. folder is made."""
+def arguments(doc, result=False, picture=True, **small):
+    """Options of a study. small: runs it makes unless --large or --runs N is given, e.g. runs=100; result: whether it takes
+    --result FILE.json#NAME; picture: whether it draws. folder is made."""
     parser = argparse.ArgumentParser(description=doc, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder")
-    parser.add_argument("picture")
+    if picture:
+        parser.add_argument("picture")
     parser.add_argument("--large", action="store_true")
     if result:
         parser.add_argument("--result", help="rows of the table, as JSON")
     for name in small:
-        parser.add_argument("--" + name.replace("_", "-"), type=int)
+        parser.add_argument(f"--{name}", type=int)
     args = parser.parse_args()
     for name, count in small.items():
         if getattr(args, name) is None:

@@ -37,7 +37,7 @@ SMALL = {
     "lp_tolerance.py": "--n 100 --seeds 2",
     "motion_mc.py": "--n 128 --runs 20",
     "motion_md.py": "--n 128 --runs 20 --long-runs 5",
-    "near_jamming_exponents.py": "RUNS PICTURE.png --runs 20",
+    "near_jamming_exponents.py": "RUNS --runs 20",
     "near_jamming_modes.py": "RUNS PICTURE.png --runs 20",
     "near_jamming_packings.py": "RUNS PICTURE.png --runs 20",
     "network_distributions.py": "PICTURE.png PACKINGS",

@@ -57,8 +57,6 @@ class Network(unittest.TestCase):
         z = s.local_values("coordination", "all")
         self.assertEqual((len(z), z.sum()), (r.stable, 2 * r.contacts))
         np.testing.assert_allclose(s.local_values("vector_dot", "all"), s.contact_dots(weighted=0).dot, rtol=1e-12)
-        with self.assertRaises(jam.errors.ArgumentError):
-            s.local_values("coordination", "median")
 
     def test_made_methods(self):
         s, r = self.s, self.r
@@ -112,15 +110,11 @@ class Network(unittest.TestCase):
             self.s.call("gaps", stable_only=1)
         with self.assertRaisesRegex(TypeError, "stifness"):
             self.s.moduli(stifness="hard")
-        with self.assertRaisesRegex(TypeError, "stifness"):
-            self.s.call("moduli", stifness="hard")
         with self.assertRaises(jam.errors.ArgumentError):
             self.s.floppy_mode(len(self.s.forces))
         with self.assertRaises(jam.errors.ArgumentError):
             self.s.prove([1.0] * self.s.n, strict=True)
         for setter in (self.s.add_note, self.s.set_memory_limit, self.s.stop_observing):
             self.assertNotIn("progress", inspect.signature(setter).parameters)  # nothing that takes long
-        with self.assertRaises(jam.errors.ArgumentError):
-            self.s.gaps(-1.0, True)
         with self.assertRaises(jam.errors.StateError):
             jam.System.random(n=10).gaps(1.0, True)

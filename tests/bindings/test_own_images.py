@@ -4,10 +4,7 @@ import unittest
 
 import jam
 import numpy as np
-
-
-def waves(count):
-    return [np.array(q) / count for q in itertools.product(*map(range, count))]
+from test_tile import waves
 
 
 def triangular():

@@ -10,7 +10,6 @@ with two and three terms alone it is 2 % too low. Beside it: c(q) of Percus and 
 (1963)) and 1 / (d (phi p) / d phi) of the equations of state of Carnahan and Starling (d = 3) and Henderson (d = 2). Small:
 N = 500, 60 snapshots of each of three runs. Large: N = 4000, 100 of ten.
 """
-import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, seeded
 
@@ -92,8 +91,7 @@ def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
     n, runs, snapshots = (4000, 10, 100) if o.large else (500, 3, 60)
     r = Results(o, "liquid_structure")
-    figure, axes = plt.subplots(1, 3, figsize=(15, 4.4))
-    for k, (dim, phi) in enumerate(STATES):
+    for dim, phi in STATES:
         name = f"liquid_structure_n{n}"
         made = seeded(o, name, f"d{dim}_phi{phi}_", runs, lambda s: liquid(dim, phi, n, s, snapshots))
         if len(made) < 2:
@@ -103,27 +101,14 @@ def main():
         m = multiplicity(q, dim)
         noise = np.mean(m * every.var(axis=0, ddof=1) / s**2)  # of one wave vector in one run
         a, a_error = limit(q, s, np.sqrt(noise / (m * len(made))))
-        inverse = 1 / s
         law = inverse_compressibility(dim, phi)
         which = {3: "Carnahan-Starling", 2: "Henderson"}[dim]
         r.add("1", f"d = {dim}, phi = {phi}: 1/S(0) = d (phi p)/d phi", (which, round(law, 4)), a, a_error)
-        label = f"d = {dim}, phi = {phi}"
-        axes[0].plot(q, s, ".-", ms=2, lw=0.7, color=f"C{k}", label=label)
-        axes[1].plot(q, 1 - inverse, ".", ms=3, color=f"C{k}", label=label)
         if dim == 3:
             theory = percus_yevick(q, phi)
-            axes[1].plot(q, theory, "k-", lw=0.8, label="Percus-Yevick" if phi == STATES[0][1] else None)
-            off = np.sqrt(np.mean((1 - inverse - theory) ** 2)) / np.abs(theory).max()
+            off = np.sqrt(np.mean((1 - 1 / s - theory) ** 2)) / np.abs(theory).max()
             r.add("1", f"d = 3, phi = {phi}: rms of rho c(q) less Percus-Yevick over its largest value", "small", off)
-        axes[2].plot(q**2, inverse / law, ".", ms=4, color=f"C{k}", label=label)
-        axes[2].errorbar(-0.3, a / law, a_error / law, fmt="s", ms=4, color=f"C{k}", capsize=3)
-    axes[0].set(xlabel="q sigma", ylabel="S(q)")
-    axes[1].set(xlabel="q sigma", ylabel="rho c(q)")
-    axes[2].axhline(1.0, color="0.6", lw=1)
-    axes[2].set(xlim=(-0.8, 20), ylim=(0.3, 1.3), xlabel="(q sigma)^2; squares: the limit", ylabel="1/S(q) over d(phi p)/d phi")
-    for axis in axes:
-        axis.legend(fontsize=7)
-    r.write(figure)
+    r.write()
 
 
 if __name__ == "__main__":

@@ -7,7 +7,6 @@ Crystal: p of FCC spheres by dynamics against K. R. Hall's equation (J. Chem. Ph
 (Carnahan and Starling) and crystal (Hall) that have one pressure and one chemical potential. Jamming: s = -integral of p dphi / phi
 along slow growth, so s = d ln(1 - phi / phi_J) + a constant where p = d / (1 - phi / phi_J). Small: 108 and 256 spheres. Large: 864, 1024.
 """
-import matplotlib.pyplot as plt
 import numpy as np
 from common import Results, arguments, kept, mean_error, seeded
 from scipy.optimize import fsolve
@@ -58,7 +57,7 @@ def crystal(cells, phi, seed, collisions):
         return {"p": [packing.run(collisions / 5).pressure for _ in range(5)]}
 
 
-def coexistence(o, r, axis, cells, collisions):
+def coexistence(o, r, cells, collisions):
     fractions = np.array([0.53, MELTING, 0.57, 0.60, 0.64, 0.68, 0.72])
     made = [kept(o, "thermodynamics", f"fcc{cells}_phi{x:g}", lambda: crystal(cells, x, 1, collisions)) for x in fractions]
     if None in made:
@@ -72,12 +71,6 @@ def coexistence(o, r, axis, cells, collisions):
     r.add("crystal", "P sigma^3 of the crystal at 0.545", f"liquid at 0.494: {cubed * FREEZING * carnahan_starling(FREEZING):.4g}", *solid)
     for name, value, known in zip(("liquid", "crystal"), densities(), (FREEZING, MELTING)):
         r.add("crystal", f"density of the {name} in coexistence", known, value)
-    grid = np.linspace(0.5, 0.73, 100)
-    axis.errorbar(fractions, p, error, fmt="o", ms=4, label="FCC, dynamics")
-    axis.plot(grid, hall(grid), "-", lw=1, label="Hall")
-    axis.plot(grid[grid < 0.56], carnahan_starling(grid[grid < 0.56]), "--", lw=1, label="Carnahan-Starling")
-    axis.set(xlabel="phi", ylabel="p", ylim=(8, 80), yscale="log")
-    axis.legend(fontsize=8)
 
 
 def path(n, seed):
@@ -90,7 +83,7 @@ def path(n, seed):
         return {"p": p, "phi": phi, "phi_j": packing.crunch().packing_fraction}
 
 
-def entropy(o, r, axis, n, seeds):
+def entropy(o, r, n, seeds):
     made = seeded(o, "thermodynamics", f"path_n{n}_", seeds, lambda s: path(n, s))
     slopes = []
     for m in made:
@@ -99,18 +92,16 @@ def entropy(o, r, axis, n, seeds):
         smooth = m["p"] * -np.expm1(x) ** -1 * np.exp(x)
         s = np.concatenate([[0], np.cumsum(0.5 * (smooth[1:] + smooth[:-1]) * np.diff(x))])
         slopes.append(np.polyfit(x, s, 1)[0])
-        axis.plot(x, s, lw=1)
     if len(slopes) > 1:
         r.add("entropy", f"slope of the entropy a sphere against ln(1 - phi / phi_J), N = {n}, p = 600 to 1e6", 3, *mean_error(slopes))
-        axis.set(xlabel="ln(1 - phi / phi_J)", ylabel="s less s at p = 600")
 
 
 def main():
     o = arguments(__doc__.splitlines()[0]).parse_args()
-    r, (figure, axes) = Results(o, "thermodynamics"), plt.subplots(1, 2, figsize=(11, 4.4))
-    coexistence(o, r, axes[0], 6 if o.large else 3, 2000.0 if o.large else 300.0)
-    entropy(o, r, axes[1], 1024 if o.large else 256, 5 if o.large else 2)
-    r.write(figure)
+    r = Results(o, "thermodynamics")
+    coexistence(o, r, 6 if o.large else 3, 2000.0 if o.large else 300.0)
+    entropy(o, r, 1024 if o.large else 256, 5 if o.large else 2)
+    r.write()
 
 
 if __name__ == "__main__":

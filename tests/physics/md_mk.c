@@ -43,22 +43,6 @@ CASE(equation_of_state) {
   }
 }
 
-CASE(planted_states_jam_isostatically) {
-  jam_system *sys = planted(200, 3, 1.5, INFINITY, 1);
-  SIZED(jam_md_report, report);
-  DEFAULTS(compress, c);
-  c.pressure = 1e6;
-  assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
-  assert_true(report.max_overlap < 1e-13);
-  SIZED(jam_crunch_report, q);
-  assert_int_equal(jam_crunch(sys, NULL, &q), JAM_OK);
-  assert_int_equal(q.jammed, 1);
-  assert_true(q.packing_fraction > report.packing_fraction && q.packing_fraction < report.packing_fraction * 1.001);
-  assert_int_equal(q.excess_contacts, 0);
-  assert_true(q.max_overlap < 1e-12 && q.force_residual < 1e-8);
-  jam_destroy(sys);
-}
-
 /* zeta = 0 is the Euclidean model, bit for bit as far as the start goes. */
 CASE(no_shift_is_euclidean) {
   jam_system *a = planted(60, 3, 0.2, 0.0, 4);

@@ -2,7 +2,6 @@
 #include "analysis/modes.hpp"
 #include "analysis_networks.hpp"
 #include "core/error.hpp"
-#include "core/rng.hpp"
 #include "test.h"
 
 using namespace jam::inside;

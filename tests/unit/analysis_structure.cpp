@@ -1,5 +1,4 @@
 // Gaps, classes, structure and correlations against brute force and against the FCC crystal.
-#include <complex>
 #include "analysis/structure.hpp"
 #include "analysis_networks.hpp"
 #include "core/create.hpp"

@@ -6,7 +6,6 @@
 #include <vector>
 #include "core/cell_change.hpp"
 #include "core/cell_reduction.hpp"
-#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/limits.hpp"
 #include "core/pairs.hpp"

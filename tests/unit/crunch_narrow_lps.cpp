@@ -62,7 +62,7 @@ void same_vertex(const CrunchResult &r, const Packing &p, const ContactNetwork &
 // crunch finds back: the same contacts, the same diameters to rounding, nothing pulls.
 CASE(wrong_contact) {
   int back = 0;
-  for (int seed = 1; seed <= 6; ++seed) {
+  for (int seed = 1; seed <= 3; ++seed) {
     Packing p;
     ContactNetwork net;
     PairList pair;
@@ -74,14 +74,14 @@ CASE(wrong_contact) {
       ++back;
     }
   }
-  assert_true(back >= 200);  // of about 110 contacts in each of the scenes
+  assert_true(back >= 100);  // of about 110 contacts in each of the scenes
 }
 
 // A contact too weak for an LP to list: the others close but cannot balance. It is found among the pairs that nearly
 // touch, whether or not another is there to choose from.
 CASE(missing_contact) {
   int back[2] = {0, 0};
-  for (int seed = 1; seed <= 6; ++seed)
+  for (int seed = 1; seed <= 3; ++seed)
     for (const bool other : {false, true}) {
       Packing p;
       ContactNetwork net;
@@ -100,7 +100,7 @@ CASE(missing_contact) {
         ++back[other];
       }
     }
-  assert_true(back[0] >= 200 && back[1] >= 200);
+  assert_true(back[0] >= 100 && back[1] >= 100);
 }
 
 // Cancelled or out of time before the narrow LPs: it says so, and the packing is valid.

@@ -5,7 +5,6 @@
 #include "crunch/phases.hpp"
 #include "test.h"
 
-#include "core/pair_rule.hpp"
 #include "crunch_scenes.hpp"
 
 using namespace jam::inside;

@@ -1,5 +1,5 @@
 // Dynamics from lattices. Their spheres stand at the edges of the engine's cells and in rows along the axes, and may
-// all have events at time zero. The engine must go on while there is an event, and agree with a naive one.
+// all have events at time zero. The engine must go on while there is an event, and miss no neighbour.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -57,7 +57,7 @@ std::vector<Crystal> crystals() {
 }
 
 // m cells along each axis; diameters are `part` of contact; noise in units of the box.
-Packing crystal(const Crystal &l, int m, double part, double noise, double ratio = 1.0) {
+Packing crystal(const Crystal &l, int m, double part, double noise) {
   Packing p;
   const int d = l.dim;
   bool cube = true;
@@ -96,8 +96,6 @@ Packing crystal(const Crystal &l, int m, double part, double noise, double ratio
   }
   contact -= 20.0 * noise;
   p.diameter.assign(n, part * contact);
-  for (size_t i = 0; i < n; ++i)
-    if (i % 3 == 1) p.diameter[i] /= ratio;
   for (size_t k = 0; k < n * d; ++k) p.velocity.push_back(draw.normal());
   for (int c = 0; c < d; ++c) {
     double mean = 0.0;
@@ -117,7 +115,7 @@ int side_for(const Crystal &l, double most) {
 CASE(never_stalls_while_an_event_exists) {
   int stalled = 0, runs = 0;
   for (const Crystal &l : crystals())
-    for (double most : {8.0, 70.0, 150.0})
+    for (double most : {8.0, 150.0})
       for (double part : {0.05, 0.3, 0.6, 0.9, 0.999})
         for (double noise : {0.0, 1e-12, 1e-6})
           for (double growth : {0.0, 1e-2})
@@ -135,44 +133,20 @@ CASE(never_stalls_while_an_event_exists) {
                 engine->set_time_limit(end - engine->elapsed());
                 halt = engine->advance(3000, begun());
               }
+              Packing end = p;
+              engine->write_state(end);
+              const bool apart = closest_pair(end).gap > -1e-12;
               // Two spheres may grow until they touch their own images.
-              const bool good = halt == Halt::time || halt == Halt::window || halt == Halt::needs_images ||
-                                (growth > 0.0 && halt == Halt::box_full);
+              const bool good = apart && (halt == Halt::time || halt == Halt::window || halt == Halt::needs_images ||
+                                          (growth > 0.0 && halt == Halt::box_full));
               ++runs, stalled += !good;
               if (!good && stalled < 20)
-                print_error("%s d=%d N=%zu part %g noise %g growth %g cells %d: halt %d after %lld events\n", l.name,
-                            l.dim, p.n(), part, noise, growth, static_cast<int>(cells), static_cast<int>(halt),
-                            static_cast<long long>(engine->sums.events));
+                print_error("%s d=%d N=%zu part %g noise %g growth %g cells %d: apart %d, halt %d after %lld events\n",
+                            l.name, l.dim, p.n(), part, noise, growth, static_cast<int>(cells), apart,
+                            static_cast<int>(halt), static_cast<long long>(engine->sums.events));
             }
-  print_message("%d runs, %d stopped before their collisions\n", runs, stalled);
+  print_message("%d runs, %d stopped before their collisions or overlap\n", runs, stalled);
   assert_int_equal(stalled, 0);
-}
-
-// The state after so many collisions is that of the naive engine; they come after the first rebase of the calendar.
-CASE(agrees_with_naive_engine) {
-  for (const Crystal &l : crystals()) {
-    if (l.dim > 4) continue;
-    for (double part : {0.3, 0.7})
-      for (double growth : {0.0, 1e-2})
-        for (double ratio : {1.0, 1.5}) {
-          const Packing start = crystal(l, std::max(side_for(l, l.dim == 4 ? 17.0 : 33.0), 2), part, 0.0, ratio);
-          // About 2.5 of each sphere.
-          const int collisions = std::min(40, static_cast<int>(5 * start.n() / 4));
-          // The naive engine takes too long for more spheres, and sees no collision beyond its images.
-          if (l.dim == 4 && (l.basis.size() > 2 || part < 0.5)) continue;
-          Packing expected = start;
-          naive(expected, collisions, growth > 0.0 ? growth / diameter_mean(expected) : 0.0L);
-          for (int64_t cells : {-1, 1}) {
-            Packing p = start;
-            EngineOptions o;
-            o.growth = growth;
-            o.cells = cells;
-            // Dilute spheres turn by large angles: rounding grows tenfold in a collision of each. A wrong one moves by
-            // 0.1.
-            agrees(p, expected, o, collisions, 1e-5);
-          }
-        }
-  }
 }
 
 // Two small spheres meet once in 1e5 boxes, which are 1e6 events; two that move as one never meet.

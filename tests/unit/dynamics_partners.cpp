@@ -2,11 +2,7 @@
 #include <algorithm>
 
 #include "core/limits.hpp"
-#include "core/pair_rule.hpp"
-#include "core/pairs.hpp"
-#include "dynamics/event_driven/engine.hpp"
 #include "dynamics/event_driven/mari_kurchan.hpp"
-#include "dynamics/event_driven/run.hpp"
 #include "naive_dynamics.hpp"
 
 using namespace jam::inside;

@@ -1,7 +1,6 @@
 // Walls in molecular dynamics against an engine that knows no lists, no integers and no core/container: long double,
 // every pair and every wall at each step, formulae of its own.
 #include "core/container.hpp"
-#include "core/monitor.hpp"
 #include "core/pairs.hpp"
 #include "dynamics/event_driven/engine.hpp"
 #include "naive_dynamics.hpp"

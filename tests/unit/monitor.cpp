@@ -62,37 +62,40 @@ CASE(a_large_product_tells) {
   assert_true(alone == watched);
 }
 
+// Pairs of neighbours in a cube of side^3 points.
+struct Grid {
+  explicit Grid(int side) : n(side * side * side) {
+    for (int k = 0; k < n; ++k)
+      for (const int step : {1, side, side * side})
+        if (k + step < n) ei.push_back(k), ej.push_back(k + step);
+  }
+  int n;
+  std::vector<int32_t> ei, ej;
+};
+
 // The symbolic analysis of 100000 spheres takes a second without any product.
 CASE(symbolic_analysis_tells) {
-  const int side = 16, n = side * side * side;
-  std::vector<int32_t> ei, ej;
-  for (int k = 0; k < n; ++k)
-    for (const int step : {1, side, side * side})
-      if (k + step < n) ei.push_back(k), ej.push_back(k + step);
+  const Grid g(16);
   BlockCholesky factor;
-  factor.analyse(3, n, ei.data(), ej.data(), ei.size());
-  const auto again = [&](Monitor &) { factor.analyse_keep_order(3, n, ei.data(), ej.data(), ei.size()); };
+  factor.analyse(3, g.n, g.ei.data(), g.ej.data(), g.ei.size());
+  const auto again = [&](Monitor &) { factor.analyse_keep_order(3, g.n, g.ei.data(), g.ej.data(), g.ei.size()); };
   tells(4, again);
 }
 
 // Both parts of a factorisation are left where the call is cancelled, also with a second thread at work, and in a scope
 // that cannot be left they go on. Afterwards the same object factorises as a new one does.
 CASE(factorisations_are_left) {
-  const int side = 12, n = side * side * side;
-  std::vector<int32_t> ei, ej;
-  for (int k = 0; k < n; ++k)
-    for (const int step : {1, side, side * side})
-      if (k + step < n) ei.push_back(k), ej.push_back(k + step);
-  std::vector<double> diag(n, 7.0), off(ei.size(), -1.0);
+  const Grid g(12);
+  std::vector<double> diag(g.n, 7.0), off(g.ei.size(), -1.0);
   BlockCholesky factor;
   const auto solve = [&] {
-    std::vector<double> x(n, 1.0);
+    std::vector<double> x(g.n, 1.0);
     assert_int_equal(factor.factorise(diag.data(), off.data()), 0);
     factor.solve(x.data());
     return x;
   };
   for (const int threads : {1, 2, 5}) {
-    const auto analyse = [&] { factor.analyse(1, n, ei.data(), ej.data(), ei.size(), threads); };
+    const auto analyse = [&] { factor.analyse(1, g.n, g.ei.data(), g.ej.data(), g.ei.size(), threads); };
     analyse();
     const std::vector<double> before = solve();
     Monitor monitor;
@@ -129,27 +132,6 @@ CASE(short_calls_beside_a_handle) {
   assert_true(call.cancelled() && call.interrupted());
   call.end_beside(handle);
   assert_false(handle.cancelled());
-}
-
-// The numbers of a factor count against the memory of the call, before they are allocated.
-CASE(factors_keep_to_the_memory) {
-  const int n = 3000;
-  std::vector<int32_t> ei, ej;
-  for (int k = 1; k < n; ++k) ei.push_back(0), ej.push_back(k);
-  BlockCholesky factor;
-  const auto refused = [&](double limit) {
-    const CallScope scope(limit);
-    try {
-      factor.analyse(3, n, ei.data(), ej.data(), ei.size());
-    } catch (const Error &e) {
-      return e.code() == JAM_E_MEMORY;
-    }
-    return false;
-  };
-  assert_false(refused(1e12));
-  const double bytes = 8.0 * static_cast<double>(factor.factor_nonzeros());
-  assert_true(refused(bytes));
-  assert_false(refused(2.0 * static_cast<double>(factor.bytes())));
 }
 
 // The fraction never falls, also where its source does; a steady call's time is extrapolated; a jump widens the spread.

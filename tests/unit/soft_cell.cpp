@@ -3,7 +3,6 @@
 #include <cmath>
 #include "test.h"
 
-#include "core/cell_change.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
 #include "unit/random_packing.hpp"

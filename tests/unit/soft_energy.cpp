@@ -3,7 +3,6 @@
 #include "test.h"
 
 #include "core/double_double.hpp"
-#include "core/pair_rule.hpp"
 #include "core/rng.hpp"
 #include "soft/soft_state.hpp"
 #include "unit/random_packing.hpp"

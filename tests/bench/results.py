@@ -55,13 +55,12 @@ def disks(*raws):
     rows = []
     for n in sorted({raw["n"] for raw in raws}):
         runs = [run for raw in raws if raw["n"] == n for run in raw["rows"]]
-        jammed = [run for run in runs if run["kind"].startswith("jammed")]
-        highs = sum(run["reason"] != "not confirmed" for run in jammed) or None
+        jammed, others = ([run for run in runs if run["jammed"] is truth] for truth in (True, False))
         seconds = [run["seconds"] for run in runs]
         rows.append(
-            [n, ranges(run["seed"] for run in runs), len(jammed), sum(run["proof"] in ("proved", "trapped") for run in jammed), highs]
-            + [sum(run["kind"] == "wrong" for run in runs)]
-            + [sum(run["kind"] == "stopped" and (run["rigidity"] == "no") is no for run in runs) for no in (True, False)]
+            [n, ranges(run["seed"] for run in runs), len(jammed), sum(run["proof"] in ("proved", "trapped") for run in jammed)]
+            + [sum(run["oracle"] is True for run in jammed) or None, sum(run["oracle"] is False for run in jammed)]
+            + [sum((run["rigidity"] == "no") is no for run in others) for no in (True, False)]
             + [statistics.median(run["factorisations"] for run in runs), statistics.median(seconds), max(seconds)]
         )
     columns = ["N", "seeds", "jammed", "proved or trapped by jamproof.py", "confirmed by HiGHS", "wrong", "not jammed, with a motion", "undecided"]

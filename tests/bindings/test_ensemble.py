@@ -86,14 +86,14 @@ class Campaigns(InFolder):
             np.testing.assert_array_equal(e.table(), rows)  # rows of the index, where files are as they were
         self.assertEqual(read.call_count, folder.LOOKED_UP)
 
-        known = folder.index.read(index)  # wrong rows under a right checksum
+        known = folder.read_index(index)  # wrong rows under a right checksum
         forged = rows.copy()
         forged["packing_fraction"] += 0.01
         by_seed = {row["seed"]: row.tobytes() for row in forged}
-        folder.index.write(index, {k: by_seed[np.frombuffer(row, rows.dtype)[0]["seed"]] for k, row in known.items()})
+        folder.write_index(index, {k: by_seed[np.frombuffer(row, rows.dtype)[0]["seed"]] for k, row in known.items()})
         with self.assertWarnsRegex(DamagedWarning, "index.bin has another row"):
             np.testing.assert_array_equal(e.table(), rows)
-        self.assertEqual(folder.index.read(index), known)
+        self.assertEqual(folder.read_index(index), known)
         next(iter(e)).path.unlink()  # a file that is gone is gone from the table
         np.testing.assert_array_equal(e.table(), rows[1:])
 

@@ -87,7 +87,12 @@ class Network(unittest.TestCase):
         c, _ = s.compare(other)
         self.assertEqual(c.overlap_a, c.common_contacts / c.contacts_a)
         self.assertNotEqual(c.overlap_a, c.overlap)
-        self.assertLess(other.crystal_score(), 3)
+
+    def test_order_by_the_pair_correlation(self):
+        cube = np.indices((4, 4, 4)).reshape(3, -1).T
+        sites = np.concatenate([cube + shift for shift in ([0, 0, 0], [0, 0.5, 0.5], [0.5, 0, 0.5], [0.5, 0.5, 0])])
+        self.assertGreater(jam.System.from_arrays(sites, 0.7, box=4).crystal_score(), 5)
+        self.assertLess(jam.System.random(2000, 3, 1, packing_fraction=0.3).crystal_score(), 1.5)
 
     def test_minima_of_a_fixed_cell_may_be_unstable_against_shear(self):
         """As the page on soft spheres says. A minimum in all strains has no negative modulus."""

@@ -5,6 +5,7 @@ Verdicts are judged by jamming_oracle.py, which shares no code with the library.
 import itertools
 import json
 import os
+import pickle
 import subprocess
 import tempfile
 import unittest
@@ -90,6 +91,8 @@ class AsItIs(unittest.TestCase):
             s = packing(32, 2, 3, **more)
             r = self.expect(s, Verdict.YES, non_additivity=more.get("non_additivity", 0.0))
             self.assertEqual(r.contacts, s.rigidity().contacts)
+            for other in (s.copy(), pickle.loads(pickle.dumps(s))):
+                self.assertEqual(other.info.non_additivity, more.get("non_additivity", 0.0))
         s = packing(40, 3, 1, model="mk")
         self.assertEqual(s.check().jammed, Verdict.YES)
 

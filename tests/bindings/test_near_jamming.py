@@ -153,6 +153,16 @@ def test_edges(packing):
     assert refused(ValueError, nj.predictors, loose)
 
 
+def test_masses():
+    """In free flight <|dr_i|^2> = d T t^2 / m_i, so large spheres of equal density go less far by their volumes."""
+    sizes = [1.0] * 30 + [1.5] * 30
+    for masses, ratio in (("equal", 1.0), ("volume", 1.5**3)):
+        mixture = jam.System.random(n=60, dim=3, seed=2, packing_fraction=0.1, diameters=sizes, masses=masses)
+        runs = mixture.isoconf([1e-6], clock="time", runs=200, block=200)
+        mobility = nj.propensity(runs)[0]
+        assert abs(mobility[:30].mean() / mobility[30:].mean() / ratio - 1.0) < 0.06
+
+
 def test_monte_carlo(packing):
     runs = packing.isoconf([10, 100], monte_carlo=dict(alpha=2, temperature=1e-6), runs=20, block=5)
     assert 0.4 < runs.acceptance < 0.5 and runs.step > 0
@@ -216,6 +226,7 @@ if __name__ == "__main__":
     packing = jammed()
     test_statistics()
     test_errors()
+    test_masses()
     test_runs(packing)
     test_scenes_are_not_mixed()
     test_campaign(packing)

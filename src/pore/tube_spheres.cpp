@@ -26,7 +26,7 @@ double bisected(const std::function<double(double)> &f, double low, double high)
 }
 
 using Parabola = std::array<double, 3>;  // lowest coefficient first
-Parabola squared(const Point &a, const Point &b) { return {dot(a, a), 2.0 * dot(a, b), dot(b, b)}; }
+Parabola length_squared(const Point &a, const Point &b) { return {dot(a, a), 2.0 * dot(a, b), dot(b, b)}; }
 Parabola plus(const Parabola &a, double s, const Parabola &b) {
   return {a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]};
 }
@@ -103,8 +103,8 @@ void Tube::touching(const Ball &base, const Row &i, const Row &j, std::vector<Ba
   }
   const Point from{u[0] - (radius_ - base.x[0]), u[1] - (radius_ - base.x[1]), 0.0}, with{w[0], w[1], 0.0};
   const double v2 = v[0] * v[0] + v[1] * v[1];
-  const Parabola d = plus({base.r * base.r, 2.0 * base.r, 1.0}, -1.0, squared(u, w));
-  const Parabola e = plus(plus(squared(from, with), v2, d), -1.0, {radius_ * radius_, -2.0 * radius_, 1.0});
+  const Parabola d = plus({base.r * base.r, 2.0 * base.r, 1.0}, -1.0, length_squared(u, w));
+  const Parabola e = plus(plus(length_squared(from, with), v2, d), -1.0, {radius_ * radius_, -2.0 * radius_, 1.0});
   const Parabola l{v[0] * from[0] + v[1] * from[1], v[0] * with[0] + v[1] * with[1], 0.0};
   std::vector<double> quartic(5, 0.0), l2(5, 0.0);
   add_product(e, e, 1.0, quartic);

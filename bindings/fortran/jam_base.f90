@@ -229,8 +229,7 @@ contains
 
   subroutine free_at_end(self)
     type(jam_handle), intent(inout) :: self
-    call jam_destroy(self%sys)
-    self%sys = c_null_ptr
+    call self%free()
   end subroutine free_at_end
 
   ! Dimension, spheres, stable spheres N' and contacts; those without a network are 0.

@@ -59,8 +59,7 @@ def emit(api):
         out.append(f"    {s.name}() = new({zeros})\nend")
     for f in api.functions:
         pairs = [julia_type(a) for a in f.args]
-        types = "".join(p[0] + ", " for p in pairs).rstrip()
-        types = types if len(pairs) == 1 else types.rstrip(",")
+        types = ", ".join(p[0] for p in pairs) + "," * (len(pairs) == 1)
         passed = "".join(", " + p[1] for p in pairs)
         out.append(
             "\n" + raw(f"{f.name}({', '.join(a.name for a in f.args)})", f.doc)

@@ -85,12 +85,13 @@ class Call:
 
     def tuple_class(self):
         if self.columns:
-            fields = "\n".join(f"    {n.lower()}: Array  # {d}" for n, (_, _, d) in zip(item_names(self.columns), self.columns.items))
-            return [f"\n\nclass {self.result}(NamedTuple):\n{_doc('What ' + self.name + ' returns, column by column.')}\n\n" + fields + SHOWN]
-        if len(self.outputs) < 2:
+            rows = [f"    {n.lower()}: Array  # {d}" for n, (_, _, d) in zip(item_names(self.columns), self.columns.items)]
+        elif len(self.outputs) > 1:
+            rows = [f"    {a.name}{'_' * keyword.iskeyword(a.name)}: {_output(a)}" for a in self.outputs]
+        else:
             return []
-        return [f"\n\nclass {self.result}(NamedTuple):\n{_doc('What ' + self.name + ' returns.')}\n\n" +
-                "\n".join(f"    {a.name}{'_' if keyword.iskeyword(a.name) else ''}: {_output(a)}" for a in self.outputs) + SHOWN]
+        doc = _doc(f"What {self.name} returns{', column by column' * bool(self.columns)}.")
+        return [f"\n\nclass {self.result}(NamedTuple):\n{doc}\n\n" + "\n".join(rows) + SHOWN]
 
     def text(self, indent):
         f, verb = self.f, self.f.reports

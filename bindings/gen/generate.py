@@ -73,7 +73,7 @@ def main():
         text = emit_command_page.emit()
         if PAGE.read_text() != text:
             if args.check:
-                sys.exit(f"{PAGE} is not what the generator makes: run sh bindings/gen/regenerate.sh")
+                sys.exit(f"{PAGE} is not what the generator makes: run bindings/gen/generate.py")
             PAGE.write_text(text)
         return
     try:

@@ -1,5 +1,5 @@
 """The options of jam-pack, which python3 -m jam runs: the one table that the parser, the help, the manual page, the completion
-of shells and the guide's page are made from. After a change: sh bindings/gen/regenerate.sh."""
+of shells and the guide's page are made from. After a change: python3 -B bindings/gen/generate.py."""
 import re
 from pathlib import Path
 

@@ -9,7 +9,6 @@ All forces together: 0.19 (d = 2). Small: N = 64, 128 and 256 with 6400 disks a 
 """
 import sys
 
-import matplotlib.pyplot as plt
 import numpy as np
 from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
 from finite_size import Size, collapse_tail
@@ -41,24 +40,6 @@ def main():
         size = Size(e, "mk", 2)  # no packing is left out for its order
         if len(size.rows) >= 4:
             sizes[n] = size
-    figure, axes = plt.subplots(2, 2, figsize=(11, 8))
-    for n, s in sizes.items():
-        for row, name, a, x in (
-            (0, "extended", THETA_E, np.geomspace(1e-4, 10, 80)),
-            (1, "gaps", -GAMMA, np.geomspace(1e-7, 1, 80)),
-        ):
-            c = scaling.cdf_grid(getattr(s, name), x).c
-            axes[row, 0].loglog(x[c > 0], c[c > 0], label=f"N = {n}")
-            axes[row, 1].loglog((x * n ** (1 / (1 + a)))[c > 0], n * c[c > 0])
-    for row, text, scaled, slope in (
-        (0, "f, extended", "f N^(1/(1+theta_e))", 1 + THETA_E),
-        (1, "h", "h N^(1/(1-gamma))", 1 - GAMMA),
-    ):
-        axes[row, 1].loglog(
-            [0.1, 100], [0.5 * 0.1**slope, 0.5 * 100**slope], "k--", lw=1, label=f"slope {slope:.4f}"
-        )
-        axes[row, 0].set(xlabel=text, ylabel="cdf"), axes[row, 1].set(xlabel=scaled, ylabel="N cdf")
-        axes[row, 0].legend(fontsize=8), axes[row, 1].legend(fontsize=8)
     n, s = max(sizes.items())
     r.add("10", f"disks: phi_J, N = {n}", "none", *mean_error(s.rows["packing_fraction"]))
     ideal = np.mean(4.0 - 2.0 / s.rows["stable"])
@@ -86,7 +67,7 @@ def main():
                 found.value[0],
                 found.error[0],
             )
-    r.write(figure)
+    r.write()
 
 
 if __name__ == "__main__":

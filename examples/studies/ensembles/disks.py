@@ -7,15 +7,11 @@ Log-normal diameters of deviation 0.2, d = 2, growth from 0.4 at G = 1e-2 to p =
 parameters. It states that d = 2 has no size effect in the forces and a clear one in the gaps, as d = 3, up to logarithms.
 All forces together: 0.19 (d = 2). Small: N = 64, 128 and 256 with 6400 disks a size. Large: to N = 4096 with 1e6.
 """
-import sys
-
 import numpy as np
-from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
+from common import GAMMA, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
 from finite_size import Size, collapse_tail
 
 from jam import scaling
-
-sys.path.insert(0, str(HERE.parent))
 
 
 def protocol(n):

@@ -11,11 +11,9 @@ import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
-from common import GAMMA, HERE, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
+from common import GAMMA, THETA_E, THETA_L, Results, arguments, ensemble, mean_error
 
 from jam import scaling
-
-sys.path.insert(0, str(HERE.parent))
 
 GAPS_END = {"euclid": 1.0, "mk": 1e-3}  # fits look no further: beyond, Mari-Kurchan pairs are those of a liquid
 CROSSOVER = (0.179008, 0.223543, -1.25569)  # published a, b, q of gaps: Mari-Kurchan packings, N = 4096

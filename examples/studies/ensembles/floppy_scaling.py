@@ -11,13 +11,11 @@ Expected: f_min ~ N^(-1/(1+theta)), s_plus ~ N^(-1/(1-gamma)) / m, pdf(W) ~ W^th
 import sys
 
 import numpy as np
-from common import GAMMA, HERE, THETA_E, Results, arguments, ensemble, mean_error
+from common import GAMMA, THETA_E, Results, arguments, ensemble, mean_error
 from final_network import power
 from finite_size import MAX_ORDER, protocol
 
 from jam.scaling import tail_exponent
-
-sys.path.insert(0, str(HERE.parent))
 
 
 def main():

@@ -25,6 +25,7 @@ class Equations(unittest.TestCase):
         self.assertAlmostEqual(jam.eos("carnahan_starling", 3, 0.5), 13, 12)
         self.assertAlmostEqual(jam.eos("virial", 3, 0.1), jam.eos("carnahan_starling", 3, 0.1), 3)
         self.assertEqual((jam.eos("mk", 3, 0.5), jam.eos("mk", 4, 0.5)), (3, 5))
+        self.assertAlmostEqual(jam.eos(jam.EosForm.FREE_VOLUME, 3, 0.6, 0.64), 3 / (1 - 0.6 / 0.64), 12)
         # disks: second virial coefficient 2, third 3.125 in this form (exact 3.128)
         self.assertAlmostEqual((jam.eos("henderson", 2, 1e-4) - 1) / 1e-4 - 2 - 3.125e-4, 0, 7)
 

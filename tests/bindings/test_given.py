@@ -69,6 +69,8 @@ class Given(unittest.TestCase):
             s = jam.System.random(n=20, dim=2, **{name: [1, 3]})
             self.assertAlmostEqual(abs(np.linalg.det(s.cell)), 3.0)
             self.assertAlmostEqual(s.packing_fraction, 0.2)
+        s.cell = [[2.0, 0.0], [0.5, 6.0]]
+        np.testing.assert_array_equal(s.cell, [[2.0, 0.0], [0.5, 6.0]])
 
     def test_whole_numbers_that_do_not_fit(self):
         s = make(X, 0.2, box=2)

@@ -230,6 +230,7 @@ class ByDistance(Folder):
         found = s.contacts_from_geometry()
         self.assertEqual(found.contacts, 0)
         self.assertIn("contacts_by_distance", str(found))
+        self.assertGreater(s.contacts_from_geometry(tolerance=0.02).pairs_within, 0)  # the user's own choice
         s.contacts_by_distance(0.02)
         self.assertGreater(len(s.contacts), 0)
 

@@ -85,6 +85,8 @@ class Laws(unittest.TestCase):
             s = jam.sizes("sieve", 20000, curve=CURVE)
             np.testing.assert_array_equal(s, jam.sizes("sieve", 20000, curve=path))
             report = jam.size_report(s)
+            passing = [100 * np.sum(s[s <= size] ** 3) / np.sum(s**3) for size, _ in CURVE]
+            self.assertLess(np.abs(np.array(passing) - [b for _, b in CURVE]).max(), 100 * report.largest_share)
             for found, share in ((report.d10, 10), (report.d50, 50), (report.d90, 90)):
                 x = np.exp(np.interp(share, [b for _, b in CURVE], np.log([a for a, _ in CURVE])))
                 self.assertAlmostEqual(found / x, 1, delta=3e-3)
@@ -111,6 +113,12 @@ class Densities(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "give one of them"):
             jam.System.random(20, porosity=0.7, packing_fraction=0.3)
         self.assertEqual(jam.System.random(diameters=[1.0, 2.0, 3.0]).n, 3)
+
+    def test_progress_is_that_of_the_density(self):
+        """The default protocol has a second stage, which a density below the first one's pressure never reaches."""
+        seen = []
+        jam.System.random(n=4000, packing_fraction=0.3).compress(packing_fraction=0.6, progress=lambda p: seen.append(p.fraction))
+        self.assertGreater(max(seen), 0.5)
 
     def test_densities_beyond_reach_are_refused_before_work(self):
         with self.assertRaisesRegex(jam.errors.UnplaceableError, r"porosity 0\.3\).* jam near 0\.643 .*Farr and Groot.*0\.384"):

@@ -8,7 +8,7 @@ ORDER = (
 ).split()
 # Third-party modules besides numpy: the modules that import them, where a layer below must work without. Those in a
 # folder's name may do so at once, the others inside functions only.
-AT_ONCE = {"h5py": ("_formats/seal.py", "_formats/explain.py", "_formats/write_packing.py")}
+AT_ONCE = {"h5py": ("_formats/seal.py", "_formats/records.py", "_formats/write_packing.py")}
 STANDARD_AND_NUMPY = "numpy"
 
 

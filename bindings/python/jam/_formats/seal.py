@@ -25,7 +25,7 @@ try:
     import h5py
 except ImportError as error:  # pragma: no cover
     raise ImportError("packings are stored by h5py: install python3-h5py") from error
-from .explain import explanation
+from .records import explanation
 
 USER_BLOCK = 512
 INDEX = "seal"

@@ -8,8 +8,7 @@ from typing import Iterator, Mapping
 from .._api.generated import CrunchReport
 from ..errors import StoreError
 from .content import Packing
-from .explain import report_text, report_value
-from .records import unpack
+from .records import report_text, report_value, unpack
 from .replacing import replacing
 from .seal import seal
 from .sealed import read_packing

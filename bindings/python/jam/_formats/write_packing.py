@@ -15,7 +15,7 @@
     jam/analysis                 results of the protocol's analysis by name
 
 The file is sealed (see seal.py): what is read was written by save() to the last bit, and libhdf5 does not parse it.
-Attributes beside the arrays say what they mean (see explain.py).
+Attributes beside the arrays say what they mean (see records.py).
 
 A file is made in memory, written beside under a name nobody else has, flushed to the disk, and renamed. Readers hence
 see all of a file or none of it, and a writer that is killed leaves only a file of the folder `parts`.
@@ -36,8 +36,8 @@ from .. import raw
 from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError, StoreError
 from .content import CONTACTS, SCHEMA, Packing
-from .explain import report_text, report_value
 from .provenance import provenance
+from .records import report_text, report_value
 from .replacing import MENDED, replacing, require_ending
 from .seal import seal
 

@@ -7,7 +7,6 @@ import os
 import shutil
 import subprocess
 import tempfile
-import unittest
 
 import jam
 import numpy as np
@@ -94,7 +93,3 @@ class Comma(InFolder):
                 self.in_both(lambda: said(words))
         rows = np.loadtxt(self.folder / "g.csv", delimiter=",", skiprows=1)
         self.assertTrue(((rows[:, 2] > 0) & (rows[:, 2] <= 1)).all())
-
-
-if __name__ == "__main__":
-    unittest.main()

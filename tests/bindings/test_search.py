@@ -2,27 +2,20 @@
 import json
 import subprocess
 import sys
-import tempfile
-import unittest
 from fractions import Fraction
-from pathlib import Path
 
 import jam
 import jam.radii
 import numpy as np
 from jam import _search as search
+from packings import InFolder
 from test_command_line import OUTPUT, REFUSED, USAGE, in_process
 from proof_files import ROOT
 
 
-class Search(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.dir = Path(folder.name)
-
+class Search(InFolder):
     def run_words(self, words):
-        return in_process(search.main, words.split(), self.dir)
+        return in_process(search.main, words.split(), self.folder)
 
     def test_best_packings_are_written_proved_and_continued(self):
         words = "disks --n 5 --walls xy --starts {} --workers 1 --keep 2 --prove 30 --json"
@@ -36,17 +29,17 @@ class Search(unittest.TestCase):
         self.assertLess(abs(16 * v * v - 24 * v + 7), Fraction(1, 10**27))
         self.assertLess(best["value_radius"], 1e-28)
         checker = ROOT / "bindings/proof/jamproof.py"
-        done = subprocess.run([sys.executable, checker, self.dir / best["proof"]], capture_output=True, text=True, check=True)
+        done = subprocess.run([sys.executable, checker, self.folder / best["proof"]], capture_output=True, text=True, check=True)
         self.assertIn("proved", done.stdout)
-        packing = jam.System.read(self.dir / best["file"])
+        packing = jam.System.read(self.folder / best["file"])
         self.assertAlmostEqual(packing.diameters.sum() / 2, float(v), delta=1e-14)
         code, out, err = self.run_words(words.format(2).replace("--prove 30 ", ""))
-        self.assertTrue((self.dir / best["proof"]).exists())  # of the packing beside it, which is the same
+        self.assertTrue((self.folder / best["proof"]).exists())  # of the packing beside it, which is the same
         for name in ("best-1.xyz", "best-2.xyz"):  # no proof stays beside a packing that it does not prove
-            (self.dir / "disks" / name).write_text("")
+            (self.folder / "disks" / name).write_text("")
         code, out, err = self.run_words(words.format(3).replace("--prove 30 ", ""))
         self.assertEqual(json.loads(out)["starts"], 3)
-        self.assertEqual(list(self.dir.glob("disks/*.jamproof")), [])
+        self.assertEqual(list(self.folder.glob("disks/*.jamproof")), [])
 
     def test_no_file_is_of_another_rank_after_fewer_were_asked_for(self):
         words = "disks --n 9 --walls xy --workers 1 --json "
@@ -54,14 +47,14 @@ class Search(unittest.TestCase):
         self.assertGreater(len(many), 1)
         fewer = json.loads(self.run_words(words + "--starts 4 --keep 1")[1])["best"]
         self.assertLessEqual({row["value"] for row in many}, {row["value"] for row in fewer})
-        kept = json.loads((self.dir / "disks/search.json").read_text())["best"]
-        self.assertEqual(sorted(p.name for p in self.dir.glob("disks/best*")), [f"best-{k}.xyz" for k in range(1, len(kept) + 1)])
+        kept = json.loads((self.folder / "disks/search.json").read_text())["best"]
+        self.assertEqual(sorted(p.name for p in self.folder.glob("disks/best*")), [f"best-{k}.xyz" for k in range(1, len(kept) + 1)])
         for rank, (value, *_) in enumerate(kept, 1):
-            self.assertAlmostEqual(jam.System.read(self.dir / f"disks/best-{rank}.xyz").diameters.sum() / 2, value, 12)
+            self.assertAlmostEqual(jam.System.read(self.folder / f"disks/best-{rank}.xyz").diameters.sum() / 2, value, 12)
 
     def test_files_of_another_search_are_not_written_over(self):
-        (self.dir / "d").mkdir()
-        mine = self.dir / "d/best-1.xyz"
+        (self.folder / "d").mkdir()
+        mine = self.folder / "d/best-1.xyz"
         mine.write_text("mine")
         code, _, err = self.run_words("d --n 2 --walls xy --starts 1 --workers 1")
         self.assertEqual((code, mine.read_text()), (REFUSED, "mine"))
@@ -74,7 +67,7 @@ class Search(unittest.TestCase):
             self.assertEqual((code, err), (0, ""))
             best = json.loads(out)["best"][0]
             self.assertAlmostEqual(float(best["value"]), (n / 12**0.5) ** 0.5, 12)
-            packing = jam.System.read(self.dir / best["file"])
+            packing = jam.System.read(self.folder / best["file"])
             self.assertAlmostEqual(np.linalg.det(packing.cell), 1.0, 12)
             self.assertAlmostEqual(packing.diameters.sum() / 2, float(best["value"]), 14)
             code, out, err = self.run_words(f"d{n} --n {n} --strain free --starts 3 --workers 1 --keep 1 --json")
@@ -83,7 +76,7 @@ class Search(unittest.TestCase):
 
     def test_a_search_that_kept_no_cells_goes_on(self):
         words = "d --n 3 --box 2 --starts 1 --workers 1 --json"
-        first, record = self.run_words(words), self.dir / "d/search.json"
+        first, record = self.run_words(words), self.folder / "d/search.json"
         kept = json.loads(record.read_text())
         self.assertEqual([x.pop() for x in kept["best"]], [[[2.0, 0.0], [0.0, 2.0]]])
         record.write_text(json.dumps(kept))
@@ -101,7 +94,7 @@ class Search(unittest.TestCase):
             ("d --n 5 --starts 1 --radius-min 0.4 --walls xy", REFUSED, "radius_min"),
             ("file --n 5 --starts 1 --walls xy", OUTPUT, "file"),
         ):
-            (self.dir / "file").write_text("")
+            (self.folder / "file").write_text("")
             code, _, err = self.run_words(words)
             self.assertEqual(code, status, err)
             self.assertIn(text, err)
@@ -115,7 +108,3 @@ class Search(unittest.TestCase):
         self.assertGreater(found.maxima, 60)
         best = found.best[0]
         self.assertLessEqual((np.linalg.norm(best.positions - 0.5, axis=1) + best.radii).max(), 0.5 + 1e-15)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -6,10 +6,11 @@ import shlex
 import subprocess
 import sys
 import tempfile
-import unittest
 from pathlib import Path
 
 import numpy as np
+
+from packings import InFolder
 
 HERE = Path(__file__).resolve().parents[2] / "examples" / "studies" / "ensembles"
 
@@ -25,23 +26,19 @@ def run(script, out, *options):
     return found, {row["quantity"]: row for row in rows}, made.stdout
 
 
-class Studies(unittest.TestCase):
-    def setUp(self):
-        self.out = tempfile.TemporaryDirectory()
-        self.addCleanup(self.out.cleanup)
-
+class Studies(InFolder):
     def test_disks(self):
         options = ("--sizes", "32", "64", "--particles", "640", "--workers", "2")
-        found, rows, _ = run("disks", self.out.name, *options)
+        found, rows, _ = run("disks", self.folder, *options)
         mean_z = next(row for name, row in rows.items() if "mean z" in name)
         # one state of self-stress in each packing; both sides are means, over packings or over spheres
         self.assertAlmostEqual(mean_z["ours"], float(mean_z["published"].removeprefix("exact: ")), delta=0.01)
         self.assertEqual(found["command"], "disks.py --sizes 32 64 --particles 640")
-        _, again, _ = run("disks", self.out.name, *options, "--only-read")
+        _, again, _ = run("disks", self.folder, *options, "--only-read")
         self.assertEqual(again, rows)
 
     def test_sketches(self):
-        _, rows, _ = run("sketches", self.out.name, "--disks", "64")
+        _, rows, _ = run("sketches", self.folder, "--disks", "64")
         # A linear constraint is sufficient for the exact one; the root of the collision is a contact.
         self.assertEqual(rows["points that the linear constraints allow and the exact ones do not"]["ours"], 0)
         self.assertGreaterEqual(rows["least distance over the diameter after one LP"]["ours"], 1 - 1e-12)
@@ -50,7 +47,7 @@ class Studies(unittest.TestCase):
 
     def test_both_sides_of_jamming(self):
         options = ("--sizes", "96", "--particles", "576")
-        _, rows, _ = run("both_sides", self.out.name, *options)
+        _, rows, _ = run("both_sides", self.folder, *options)
         # A crunch from just below the soft packing ends with its contacts and nearly its forces.
         self.assertGreater(rows["share whose crunch finds the same contacts, N = 96"]["ours"], 0.7)
         self.assertLess(rows["median over packings of the largest |f_soft - f_crunch| / mean, N = 96"]["ours"], 0.2)
@@ -141,9 +138,9 @@ class Studies(unittest.TestCase):
 
     def test_complexity(self):
         options = ("--sizes", "32", "64", "128", "--seeds", "2")
-        _, rows, _ = run("complexity", self.out.name, *options)
+        _, rows, _ = run("complexity", self.folder, *options)
         work = rows["power of N of factorisations, kappa fixed, N = 32 to 128"]["ours"]
         self.assertTrue(0.0 < work < 2.0, work)
-        _, again, said = run("complexity", self.out.name, *options)
+        _, again, said = run("complexity", self.folder, *options)
         self.assertEqual(again, rows)  # times too: nothing was made again
         self.assertNotIn("complexity: n", said)

@@ -1,7 +1,5 @@
 """Entries of an ensemble are used as systems are; its tables have words and options; how many packings a time allows."""
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
@@ -22,19 +20,13 @@ class Protocols(unittest.TestCase):
             np.testing.assert_allclose(np.sort(one), np.sort(other), rtol=1e-15)
 
 
-class Entries(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.holder = tempfile.TemporaryDirectory()
-        cls.folder = Path(cls.holder.name, "e")
-        cls.ensemble = Ensemble(cls.folder, SMALL)
-        cls.ensemble.run([1, 2, 3], progress=False, workers=1)
-        cls.entry = next(iter(cls.ensemble))
-        cls.system = cls.entry.system()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.holder.cleanup()
+class Entries(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.ensemble = Ensemble(self.folder, SMALL)
+        self.ensemble.run([1, 2, 3], progress=False, workers=1)
+        self.entry = next(iter(self.ensemble))
+        self.system = self.entry.system()
 
     def test_attributes_are_those_of_the_system(self):
         for name in ("positions", "diameters", "forces", "coordination", "rattlers", "bucklers", "velocities", "cell"):

@@ -3,14 +3,13 @@ import json
 import pickle
 import tempfile
 import unittest
-from pathlib import Path
 
 import h5py
 import numpy as np
 
 import jam
 from jam.ensemble import Ensemble, ProtocolError
-from packings import SMALL, same_bits
+from packings import SMALL, InFolder, same_bits
 
 SOFT = {"verb": "monte_carlo", "alpha": 2.0, "temperature": 1e-3}
 
@@ -102,19 +101,14 @@ class Protocols(unittest.TestCase):
         self.assertGreater(s.bond_order(6, 1.2).min(), 0.57)  # 0.5745 in an FCC crystal
 
 
-class Files(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.path = Path(cls.folder.name, "a.h5")
-        cls.s = jam.System.random(n=40, dim=3, seed=5)
-        cls.s.compress(growth_rate=0.05)
-        cls.s.crunch()
-        cls.s.save(cls.path)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+class Files(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.path = self.folder / "a.h5"
+        self.s = jam.System.random(n=40, dim=3, seed=5)
+        self.s.compress(growth_rate=0.05)
+        self.s.crunch()
+        self.s.save(self.path)
 
     def test_a_file_and_a_pickle_hold_everything(self):
         for back in (jam.load(self.path), pickle.loads(pickle.dumps(self.s))):

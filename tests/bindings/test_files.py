@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 import jam
+from packings import InFolder
 
 PACK = os.environ.get("JAM_PACK")  # the program in C
 
@@ -22,23 +23,17 @@ def crunched():
     return s
 
 
-class Files(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.path = Path(cls.folder.name)
-        cls.s = crunched()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+class Files(InFolder):
+    def setUp(self):
+        super().setUp()
+        self.s = crunched()
 
     def test_csv(self):
-        jam.files.write_csv(self.s, self.path / "s.csv")
-        jam.files.write_contacts_csv(self.s, self.path / "c.csv")
-        rows = list(csv.DictReader((self.path / "s.csv").read_text().splitlines()))
+        jam.files.write_csv(self.s, self.folder / "s.csv")
+        jam.files.write_contacts_csv(self.s, self.folder / "c.csv")
+        rows = list(csv.DictReader((self.folder / "s.csv").read_text().splitlines()))
         self.assertEqual([float(r["x"]) for r in rows], list(self.s.positions[:, 0]))
-        rows = list(csv.DictReader((self.path / "c.csv").read_text().splitlines()))
+        rows = list(csv.DictReader((self.folder / "c.csv").read_text().splitlines()))
         self.assertEqual(list(rows[0]), ["i", "j", "n1", "n2", "gap", "force"])
         for name in rows[0]:
             self.assertEqual([float(r[name]) for r in rows], list(self.s.contacts.table()[name]), name)
@@ -49,8 +44,8 @@ class Files(unittest.TestCase):
         for name, write, what in (
             ("gaps", jam.files.write_gaps_csv, self.s), ("structure", jam.files.write_structure_csv, self.s), ("spectrum", jam.files.write_spectrum_csv, modes),
         ):
-            write(what, self.path / "t.csv")
-            made[name] = np.genfromtxt(self.path / "t.csv", delimiter=",", names=True, dtype=None, encoding="ascii")
+            write(what, self.folder / "t.csv")
+            made[name] = np.genfromtxt(self.folder / "t.csv", delimiter=",", names=True, dtype=None, encoding="ascii")
         gaps, alone = self.s.gaps(1.0, False), self.s.coordination == 0
         np.testing.assert_array_equal(made["gaps"]["gap"], gaps.gap)
         np.testing.assert_array_equal(np.column_stack([made["gaps"]["i"], made["gaps"]["j"]]), gaps.pair)
@@ -70,15 +65,15 @@ class Files(unittest.TestCase):
         self.assertAlmostEqual(modes.values.sum(), 2 * len(contacts), 8)  # each contact adds 1 to each of its spheres
 
     def test_nothing_is_left_when_writing_fails(self):
-        before = sorted(os.listdir(self.path))
+        before = sorted(os.listdir(self.folder))
         with self.assertRaises(jam.errors.StateError):
-            jam.files.write_contacts_csv(jam.System.random(n=10), self.path / "never.csv")
+            jam.files.write_contacts_csv(jam.System.random(n=10), self.folder / "never.csv")
         with self.assertRaises(jam.errors.UnsupportedError):
-            jam.files.write_vtk(jam.System.random(n=10, dim=4, packing_fraction=0.05), self.path / "never.vtp")
+            jam.files.write_vtk(jam.System.random(n=10, dim=4, packing_fraction=0.05), self.folder / "never.vtp")
         for name in ("/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"):  # the shell may append to what it has opened
             with self.assertRaisesRegex(OSError, "open descriptor"):
                 jam.files.write_csv(self.s, name)
-        self.assertEqual(sorted(os.listdir(self.path)), before)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
 
 
 class CommandLine(unittest.TestCase):

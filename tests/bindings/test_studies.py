@@ -38,7 +38,7 @@ class Studies(InFolder):
         self.assertEqual(again, rows)
 
     def test_sketches(self):
-        _, rows, _ = run("sketches", self.folder, "--disks", "64")
+        _, rows, _ = run("sketches", self.folder, "--disks", "64", "--spheres", "64")
         # A linear constraint is sufficient for the exact one; the root of the collision is a contact.
         self.assertEqual(rows["points that the linear constraints allow and the exact ones do not"]["ours"], 0)
         self.assertGreaterEqual(rows["least distance over the diameter after one LP"]["ours"], 1 - 1e-12)

@@ -15,7 +15,7 @@ from .entry import Entry
 from .pool import LocalPool, WorkerDied
 from .making import begin, make
 from .protocol import ProtocolError, complete, identity, minimal, packing_name, to_json
-from .status import DamagedWarning, Status
+from .rows import DamagedWarning, Status
 
 __all__ = [
     "DamagedWarning",

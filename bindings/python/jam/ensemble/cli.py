@@ -13,7 +13,7 @@ from .._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, 
 from ..errors import StoreError
 from .ensemble import Ensemble
 from .protocol import ProtocolError
-from .status import Status
+from .rows import Status
 
 def _seeds(text: str) -> list[int]:
     """1-100, 7, or several with commas: 1-100,205."""

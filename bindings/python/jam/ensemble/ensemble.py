@@ -24,8 +24,7 @@ from .entry import Entry
 from .folder import Content, Folder, Place
 from .pool import LocalPool
 from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
-from .rows import as_table, builds_of
-from .status import Status, warn
+from .rows import Status, as_table, builds_of, warn
 
 
 def readable(files: Folder, protocol: str | None = None) -> tuple[Array, list[Place]]:

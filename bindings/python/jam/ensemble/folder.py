@@ -36,8 +36,7 @@ from .._formats.sealed import names_in, read_packing
 from .._formats.write_packing import write_file
 from ..errors import StoreError
 from .protocol import identity, packing_name
-from .rows import ROW, key_of, read_index, row_of, write_index
-from .status import DamagedWarning
+from .rows import ROW, DamagedWarning, key_of, read_index, row_of, write_index
 
 LOOKED_UP = 2  # rows of the index, each time it is used
 

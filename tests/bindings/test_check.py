@@ -189,13 +189,6 @@ class Changes(unittest.TestCase):
             self.assertEqual((r.contacts_start, r.contacts_kept), (0, 0))
             self.assertIn("displacement_max", repr(r))
 
-    def test_pairs_that_touch_before_a_crunch_are_closed(self):
-        for p in (1e5, 1e7, 1e9):
-            s = jam.System.random(n=100, dim=3, seed=2)
-            s.compress(growth_rate=0.1, pressure=p)
-            closed = s.check(crunch=False).closed_pairs
-            self.assertEqual(s.crunch().contacts_start, closed)
-
     def test_of_a_jammed_packing(self):
         s = packing(64, 2, 3, diameters=[1.0] * 32 + [1.4] * 32)
         count = s.report.contacts

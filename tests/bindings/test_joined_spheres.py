@@ -85,14 +85,10 @@ class Overlaps(Folder):
 
 
 class Bridges(Folder):
-    def bed(self):
-        s = jam.System.random(n=200, seed=3)
-        s.compress(packing_fraction=0.55)
-        return s
-
     def test_pairs_within_a_gap(self):
         """A bed of given porosity, which has no contact that balances."""
-        s = self.bed()
+        s = jam.System.random(n=200, seed=3)
+        s.compress(packing_fraction=0.55)
         for gap in (0.001, 0.01, 0.03):
             pairs = int(s.near_coordination(gap).sum()) // 2
             self.assertGreater(pairs, 0)
@@ -105,12 +101,6 @@ class Bridges(Folder):
         self.assertIn("within a gap of 1e-12", str(none))
         with self.assertRaisesRegex(jam.errors.ArgumentError, "bridge_gap is 2"):
             s.write_stl(None, bridge_gap=2.0)
-
-    def test_the_same_bridges_by_contacts_by_distance(self):
-        s = self.bed()
-        by_gap = self.mesh(s, contacts="bridged", bridge=0.1, bridge_gap=0.02)[0]
-        s.contacts_by_distance(0.02)
-        self.assertEqual(self.mesh(s, contacts="bridged", bridge=0.1)[0].bridges, by_gap.bridges)
 
     def test_overlapping_pairs_are_joined_by_their_circle(self):
         s = soft([[0.3, 0.5, 0.5], [0.7, 0.5, 0.5]], [0.25, 0.25])

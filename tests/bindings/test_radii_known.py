@@ -11,11 +11,6 @@ CIRCLE, BALL, TUBE = {"dim": 2, "container": "ball"}, {"dim": 3, "container": "b
 TWO = 2 - 2**0.5  # of two disks in a square
 
 
-def mixture(n, dim, walls="", seed=1):
-    sizes = np.random.default_rng(seed).uniform(0.6, 1.4, n)
-    return jam.System.random(n=n, dim=dim, seed=seed, diameters=sizes, **({"walls": walls} if walls else {}))
-
-
 class Sums(unittest.TestCase):
     def test_sums_that_are_algebraic(self):
         """Also of one disk that touches its images. Two spheres share a diameter; three equal disks touch each other and the circle."""
@@ -106,19 +101,11 @@ class Moments(unittest.TestCase):
         moment = [sum(Fraction(r) ** -6 for r in radii) for radii in (before, s.diameters / 2)]
         self.assertAlmostEqual(float(moment[1] / moment[0] * Fraction(report.value) ** 6 - 1), 0, 13)
 
-    def test_units_do_not_matter(self):
-        exponents, s = (1, 2, 3), mixture(10, 2, "xy", 7)
-        x, d = s.positions.copy(), s.diameters.copy()
-        value = s.maximise_radii(moments=exponents).value
-        for unit in (1e-6, 300.0):
-            other = jam.System.from_arrays(unit * x, diameters=unit * d, box=unit, walls="xy")
-            self.assertLess(abs(other.maximise_radii(moments=exponents).value / value - 1), 1e-12)
-
     def test_a_bound_that_must_stop_a_radius(self):
         """Two disks keep R_1 + R_2 = 2 - sqrt(2), and a sum of cubes on that line is largest at its ends."""
         most = 0.4
         for seed in (1, 2, 3):
-            s = mixture(2, 2, "xy", seed)
+            s = jam.System.random(n=2, seed=seed, diameters=np.random.default_rng(seed).uniform(0.6, 1.4, 2), **SQUARE)
             before = (s.diameters**3).sum() / 8
             report = s.maximise_radii(moments=(3,), radius_max=most)
             self.assertEqual((report.maximum, report.at_bounds), (True, 1))

@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
 """Verdicts of jam_rigidity, both kinds, flexes and contacts from geometry of a fixed set: share undecided, wrong ones, time.
 
-usage: verdicts.py                           with PYTHONPATH set to the built module; JSON to stdout
-       verdicts.py --draw RAW.json PICTURE   of that
+usage: verdicts.py      with PYTHONPATH set to the built module; JSON to stdout
 Wrong: a yes or no of crystals that differs from that of their lattice without noise, as long as this is below the gap of a contact,
 or of packings as a crunch left them, each by the linear program of HiGHS and the singular values of tests/bindings/jamming_oracle.py; a
 yes of shrunk ones. Of tubes and fluids no other verdict is known.
 """
-import collections
 import itertools
 import json
 import sys
@@ -111,29 +109,5 @@ def measure():
     return rows
 
 
-def draw(rows, picture):
-    """The share that is left open against the noise, and against the time of a verdict."""
-    import matplotlib.pyplot as plt
-
-    fig, (left, right) = plt.subplots(1, 2, figsize=(9, 3.8), constrained_layout=True)
-    of = collections.defaultdict(list)
-    for r in rows:
-        of[r["scene"]].append(r)
-    for (scene, runs), marker in zip(of.items(), "osD^vP*Xh<>dp8+x"):
-        if scene.endswith("noise") or scene == "shrunk":
-            values = sorted({r["value"] for r in runs})
-            share = [np.mean([v == "UNDECIDED" for r in runs if r["value"] == x for v in r["verdict"]]) for x in values]
-            left.semilogx([max(x, 1e-15) for x in values], share, marker + "-", label=scene)
-        share = np.mean([v == "UNDECIDED" for r in runs for v in r["verdict"]])
-        right.semilogx(np.median([r["seconds"] for r in runs]), share, marker, label=scene)
-    left.set(xlabel="noise, or part of diameters taken off (1e-15: none)", ylabel="undecided")
-    right.set(xlabel="processor time of both kinds, flexes too (s)", ylabel="undecided")
-    left.legend(fontsize=7), right.legend(fontsize=7)
-    fig.savefig(picture, dpi=150)
-
-
 if __name__ == "__main__":
-    if "--draw" in sys.argv:
-        draw(json.loads(Path(sys.argv[2]).read_text(encoding="utf-8")), sys.argv[3])
-    else:
-        print(json.dumps(measure()))
+    print(json.dumps(measure()))

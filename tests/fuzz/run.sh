@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds the fuzz targets with clang, libFuzzer and the address and undefined-behaviour sanitizers, and runs all at
 # once for so many seconds: sh tests/fuzz/run.sh [seconds = 20] [folder for new inputs] [seed = 1]. The same seed draws
-# the same inputs again, so that a change is judged by what it did itself; 0 draws new ones, as long.sh does. Inputs
+# the same inputs again, so that a change is judged by what it did itself; 0 draws new ones. Inputs
 # that break a rule stay in that folder. Put them into tests/fuzz/corpus when the defect is mended.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)

@@ -11,12 +11,12 @@
 /* Smallest gap over all pairs and images out to `reach` boxes, own images too. */
 static double smallest_gap(const jam_system *sys, int reach) {
   const double *x, *s;
-  size_t n, i, j;
+  size_t n;
   double least = INFINITY;
   const jam_info info = info_of(sys);
   x = view_of(sys, JAM_VIEW_POSITIONS), jam_view(sys, JAM_VIEW_DIAMETERS, &s, &n);
-  for (i = 0; i < n; ++i)
-    for (j = 0; j <= i; ++j) {
+  for (size_t i = 0; i < n; ++i)
+    for (size_t j = 0; j <= i; ++j) {
       int code, count = 1, k;
       for (k = 0; k < info.dim; ++k) count *= 2 * reach + 1;
       for (code = 0; code < count; ++code) {
@@ -107,32 +107,29 @@ CASE(densities) {
                 {4, 50, {0.02, 0.05, 0.15, 0.3, 0.4}},
                 {5, 50, {0.01, 0.05, 0.1, 0.2, 0.25}}};
   double sizes[64];
-  int k, q;
-  for (k = 0; k < 64; ++k) sizes[k] = k % 2 ? 1.0 : 1.4; /* in d = 2 equal disks would order */
-  for (k = 0; k < 4; ++k)
-    for (q = 0; q < 5; ++q) {
+  for (int k = 0; k < 64; ++k) sizes[k] = k % 2 ? 1.0 : 1.4; /* in d = 2 equal disks would order */
+  for (int k = 0; k < 4; ++k)
+    for (int q = 0; q < 5; ++q) {
       const double phi = starts[k].phi[q], random_phi = phi > 0.5 / (1 << (starts[k].dim - 2)) ? starts[k].phi[1] : phi;
-      jam_system *sys = random_start(starts[k].n, starts[k].dim, random_phi, starts[k].dim == 2 ? sizes : NULL, 3 + q);
+      OWNED jam_system *sys =
+          random_start(starts[k].n, starts[k].dim, random_phi, starts[k].dim == 2 ? sizes : NULL, 3 + q);
       if (random_phi < phi) {
         DEFAULTS(compress, c);
         c.growth_rate = 0.1, c.packing_fraction = phi, c.pressure = 1e12;
         assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
       }
       assert_true(crunched(sys, NULL, "density", phi, 1).packing_fraction > phi);
-      jam_destroy(sys);
     }
 }
 
 /* A fluid, and a packing that has grown until doubles hold no smaller gaps. */
 CASE(pressures) {
-  int k;
-  for (k = 0; k < 2; ++k) {
-    jam_system *sys = random_start(60, 3, 0.3, NULL, 2);
+  for (int k = 0; k < 2; ++k) {
+    OWNED jam_system *sys = random_start(60, 3, 0.3, NULL, 2);
     DEFAULTS(compress, c);
     c.growth_rate = k ? 1e-3 : 1e-2, c.pressure = k ? 1e12 : 10.0;
     assert_true(jam_compress(sys, &c, NULL) >= 0);
     crunched(sys, NULL, "pressure", c.pressure, 1);
-    jam_destroy(sys);
   }
 }
 
@@ -140,9 +137,8 @@ CASE(pressures) {
  * gain little per step, so the barrier path takes over. From a slowly grown state LPs finish alone. */
 CASE(fast_grown_states_take_the_path) {
   const double growth[] = {3e-3, 1e-3};
-  int k;
-  for (k = 0; k < 2; ++k) {
-    jam_system *sys = random_start(256, 3, 0.2, NULL, 5); /* of other seeds half are too far for LPs alone */
+  for (int k = 0; k < 2; ++k) {
+    OWNED jam_system *sys = random_start(256, 3, 0.2, NULL, 5); /* of other seeds half are too far for LPs alone */
     jam_crunch_report r;
     DEFAULTS(compress, c);
     c.growth_rate = 1e-2, c.pressure = 500.0;
@@ -152,20 +148,17 @@ CASE(fast_grown_states_take_the_path) {
     r = crunched(sys, NULL, "growth rate", growth[k], 1);
     assert_int_equal(r.method, k == 0 ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP);
     assert_int_equal(r.excess_contacts, 0);
-    jam_destroy(sys);
   }
 }
 
 /* Two spheres and a few more: boxes of one to three diameters, several images of a pair. Checked over all images. */
 CASE(small_boxes) {
-  int dim, n;
-  for (dim = 2; dim <= 4; ++dim)
-    for (n = dim < 4 ? 2 : dim + 1; n <= 3 * dim + 4; n += n <= dim ? 1 : dim + 1) {
-      jam_system *sys = random_start(n, dim, dim == 2 ? 0.3 : dim == 3 ? 0.15 : 0.06, NULL, n);
+  for (int dim = 2; dim <= 4; ++dim)
+    for (int n = dim < 4 ? 2 : dim + 1; n <= 3 * dim + 4; n += n <= dim ? 1 : dim + 1) {
+      OWNED jam_system *sys = random_start(n, dim, dim == 2 ? 0.3 : dim == 3 ? 0.15 : 0.06, NULL, n);
       jam_crunch_report r = crunched(sys, NULL, "spheres", n, 0);
       assert_true(smallest_gap(sys, 2) > -1e-12);
       assert_true(r.packing_fraction > 0.06);
-      jam_destroy(sys);
     }
 }
 
@@ -192,8 +185,7 @@ static const double fcc[12] = {0, 0, 0, 0, .5, .5, .5, 0, .5, .5, .5, 0};
  */
 CASE(lattices) {
   const double square[2] = {0, 0}, bcc[6] = {0, 0, 0, .5, .5, .5};
-  int vacancy;
-  for (vacancy = 0; vacancy < 2; ++vacancy) {
+  for (int vacancy = 0; vacancy < 2; ++vacancy) {
     jam_system *sys = lattice(2, 6, square, 1, 1.0, vacancy);
     jam_crunch_report r = crunched(sys, NULL, "square", vacancy, 0);
     assert_true(r.packing_fraction > 0.785398163397 * (36 - vacancy) / 36.0 - 1e-9);
@@ -214,18 +206,16 @@ CASE(lattices) {
  * centre none. Either way all that touch are contacts, and the forces are those of least norm: equal ones in FCC, where
  * all sum to zero. */
 CASE(degenerate_forces) {
-  int solver;
-  for (solver = JAM_LP_IPM; solver <= JAM_LP_CLP; ++solver) {
+  for (int solver = JAM_LP_IPM; solver <= JAM_LP_CLP; ++solver) {
     jam_system *sys = lattice(3, 3, fcc, 4, sqrt(0.5), 0);
     jam_crunch_report r;
     double f[648];
-    int k;
     DEFAULTS(crunch, o);
     o.lp_solver = solver;
     r = crunched(sys, &o, "FCC, solver", solver, 1);
     assert_true(r.contacts == 648 && r.rattlers == 0);
     assert_int_equal(jam_forces(sys, f, 648, NULL), JAM_OK);
-    for (k = 0; k < 648; ++k) assert_true(fabs(f[k] - 1.0) < 1e-10); /* the lattice itself holds to about 1e-12 */
+    for (int k = 0; k < 648; ++k) assert_true(fabs(f[k] - 1.0) < 1e-10); /* the lattice itself holds to about 1e-12 */
     jam_destroy(sys);
     sys = random_start(64, 3, 0.2, NULL, 1); /* grown slowly enough to order: more contacts than one state needs */
     assert_true(jam_compress(sys, NULL, NULL) >= 0);
@@ -236,12 +226,11 @@ CASE(degenerate_forces) {
 
 /* A jammed packing again: one LP, nothing moves, the same contacts and forces, whatever the method. */
 CASE(jammed_input) {
-  int method;
-  for (method = 0; method < 2; ++method) {
-    jam_system *sys = random_start(80, 3, 0.3, NULL, 6);
+  for (int method = 0; method < 2; ++method) {
+    OWNED jam_system *sys = random_start(80, 3, 0.3, NULL, 6);
     jam_crunch_report first, again;
     double f[400], g[400];
-    size_t m, k;
+    size_t m;
     DEFAULTS(crunch, o);
     o.method = method;
     first = crunched(sys, &o, "method", method, 1);
@@ -253,9 +242,8 @@ CASE(jammed_input) {
     assert_true(again.gain < 1e-12 && again.max_step < 1e-9 && again.contacts == first.contacts);
     assert_true(fabs(again.packing_fraction - first.packing_fraction) < 1e-13);
     assert_int_equal(jam_forces(sys, g, 400, &m), JAM_OK);
-    for (k = 0; k < m; ++k)
+    for (size_t k = 0; k < m; ++k)
       assert_true(fabs(f[k] - g[k]) < 1e-6); /* the condition of the contact matrix times rounding */
-    jam_destroy(sys);
   }
 }
 
@@ -265,13 +253,12 @@ CASE(shared_file) {
   FILE *file = fopen(path, "r");
   jam_system *sys;
   jam_crunch_report r;
-  int method;
   if (!file) {
     print_message("skipped: %s is not there\n", path);
     skip();
   }
   fclose(file);
-  for (method = 0; method < 2; ++method) {
+  for (int method = 0; method < 2; ++method) {
     assert_int_equal(jam_read(path, NULL, NULL, NULL, &sys), JAM_OK);
     DEFAULTS(crunch, o);
     o.method = method;
@@ -289,30 +276,27 @@ static void *crunch_thread(void *user) { return (void *)(intptr_t)(jam_crunch(us
 CASE(threads_and_determinism) {
   jam_system *sys[3];
   pthread_t thread[2];
-  int k;
   void *ok;
-  for (k = 0; k < 3; ++k) sys[k] = random_start(150, 3, 0.3, NULL, 8);
-  for (k = 0; k < 2; ++k) pthread_create(&thread[k], NULL, crunch_thread, sys[k]);
-  for (k = 0; k < 2; ++k) {
+  for (int k = 0; k < 3; ++k) sys[k] = random_start(150, 3, 0.3, NULL, 8);
+  for (int k = 0; k < 2; ++k) pthread_create(&thread[k], NULL, crunch_thread, sys[k]);
+  for (int k = 0; k < 2; ++k) {
     pthread_join(thread[k], &ok);
     assert_true(ok != NULL);
   }
   assert_non_null(crunch_thread(sys[2]));
-  for (k = 0; k < 2; ++k) same_view(sys[k], sys[2], JAM_VIEW_POSITIONS);
-  for (k = 0; k < 3; ++k) jam_destroy(sys[k]);
+  for (int k = 0; k < 2; ++k) same_view(sys[k], sys[2], JAM_VIEW_POSITIONS);
+  for (int k = 0; k < 3; ++k) jam_destroy(sys[k]);
 }
 
 /* Tolerances are in diameters: the same packing in a box a thousand times larger gives the same numbers. */
 CASE(box_does_not_matter) {
   jam_crunch_report r[2];
-  int k;
-  for (k = 0; k < 2; ++k) {
+  for (int k = 0; k < 2; ++k) {
     DEFAULTS(create, o);
     o.n = 100, o.packing_fraction = 0.3, o.seed = 4, o.box = k ? 1024.0 : 1.0;
-    jam_system *sys = created(&o);
+    OWNED jam_system *sys = created(&o);
     r[k].struct_size = sizeof r[k];
     assert_int_equal(jam_crunch(sys, NULL, &r[k]), JAM_OK);
-    jam_destroy(sys);
   }
   assert_int_equal(r[0].contacts, r[1].contacts);
   assert_true(fabs(r[0].packing_fraction - r[1].packing_fraction) < 1e-12);

@@ -27,34 +27,31 @@ static jam_system *fluid(const double *cell, int64_t n, int32_t dim, double frac
  * The momentum is zero, so kT has d (N - 1) degrees of freedom; d N would give 1.667 instead of 1.333. A drift of both
  * spheres changes nothing. */
 CASE(two_spheres_have_the_exact_pressure) {
-  int32_t d, drift, c;
-  for (d = 2; d <= 3; ++d)
-    for (drift = 0; drift < 2; ++drift) {
+  for (int32_t d = 2; d <= 3; ++d)
+    for (int32_t drift = 0; drift < 2; ++drift) {
       const double fraction = 0.1, v = ldexp(fraction, d - 1), exact = 1 + 0.5 * v / (1 - v);
-      jam_system *sys = fluid(NULL, 2, d, fraction);
+      OWNED jam_system *sys = fluid(NULL, 2, d, fraction);
       jam_md_report report;
       double velocities[6];
-      for (c = 0; c < 2 * d; ++c) velocities[c] = (c < d ? 1.0 : -0.7) * (1.0 + 0.37 * c * c) + 3.0;
+      for (int32_t c = 0; c < 2 * d; ++c) velocities[c] = (c < d ? 1.0 : -0.7) * (1.0 + 0.37 * c * c) + 3.0;
       if (drift) assert_int_equal(jam_set_velocities(sys, velocities, (size_t)(2 * d)), JAM_OK);
       report = run(sys, 25000);
       print_message("two spheres, d %d%s: p %.4f(%.4f), exact %.4f\n", d, drift ? ", drifting" : "", report.pressure,
                     report.pressure_error, exact);
       assert_true(report.pressure_error < 0.01);
       assert_true(fabs(report.pressure - exact) < 4 * report.pressure_error + 1e-3);
-      jam_destroy(sys);
     }
 }
 
 /* A compression ends with <v^2> = d, so that times and growth rates of what follows are in units of kT/m = 1. */
 CASE(compression_ends_at_unit_temperature) {
-  jam_system *sys = fluid(NULL, 300, 3, 0.5);
+  OWNED jam_system *sys = fluid(NULL, 300, 3, 0.5);
   const double *v;
-  size_t length, k;
+  size_t length;
   double sum = 0;
   assert_int_equal(jam_view(sys, JAM_VIEW_VELOCITIES, &v, &length), JAM_OK);
-  for (k = 0; k < length; ++k) sum += v[k] * v[k];
+  for (size_t k = 0; k < length; ++k) sum += v[k] * v[k];
   assert_true(fabs(sum / (double)length - 1) < 1e-12);
-  jam_destroy(sys);
 }
 
 /* The liquid in d = 2 .. 6 against the Pade approximant of its virial series (jam.eos of Python), up to 0.85 .. 0.9 of
@@ -68,7 +65,7 @@ CASE(liquid_of_every_dimension) {
   } at[] = {{2, 0.6, 6.45611376},  {3, 0.05, 1.22748},    {3, 0.44, 8.84062619},
             {4, 0.25, 7.20743788}, {5, 0.15, 7.40523206}, {6, 0.09, 7.94019189}};
   for (size_t k = 0; k < sizeof at / sizeof *at; ++k) {
-    jam_system *sys = fluid(NULL, 1000, at[k].dim, at[k].fraction);
+    OWNED jam_system *sys = fluid(NULL, 1000, at[k].dim, at[k].fraction);
     jam_md_report report;
     double deviation;
     run(sys, 50);
@@ -77,7 +74,6 @@ CASE(liquid_of_every_dimension) {
     print_message("d %d, phi %.2f: p %.4f(%.4f), %+.2f %% of the Pade approximant\n", at[k].dim, at[k].fraction,
                   report.pressure, report.pressure_error, 100 * deviation);
     assert_true(fabs(deviation) < 0.003 + 3.0 * report.pressure_error / report.pressure);
-    jam_destroy(sys);
   }
 }
 
@@ -85,17 +81,16 @@ CASE(free_volume_pressure) {
   /* p = d / (1 - phi/phi_J) near jamming: phi_J from two pressures must agree. */
   jam_md_report report;
   double jammed[3];
-  int k;
   report.struct_size = sizeof report;
   DEFAULTS(create, o);
   o.n = 256;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = created(&o);
   assert_int_equal(jam_compress(sys, NULL, &report), JAM_OK);
   assert_true(report.packing_fraction > 0.62 && report.packing_fraction < 0.75);
   assert_true(report.max_overlap < 1e-13);
   DEFAULTS(compress, c);
   c.growth_rate = 3e-3;
-  for (k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k) {
     c.pressure = pow(10.0, 8 + 2 * k);
     assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
     jammed[k] = report.packing_fraction / (1.0 - 3.0 / report.pressure);
@@ -103,7 +98,6 @@ CASE(free_volume_pressure) {
   }
   assert_true(fabs(jammed[1] / jammed[0] - 1.0) < 1e-7);
   assert_true(fabs(jammed[2] / jammed[1] - 1.0) < 1e-9);
-  jam_destroy(sys);
 }
 
 /* Sum of v^2 and the momentum. */
@@ -120,7 +114,7 @@ CASE(equation_of_state) {
   const double *const cells[] = {cube, monoclinic, far_monoclinic, rhombic};
   const double fraction = 0.45, exact = (1 + fraction + fraction * fraction - pow(fraction, 3)) / pow(1 - fraction, 3);
   for (int k = 0; k < 4; ++k) {
-    jam_system *sys = fluid(cells[k], 1000, 3, fraction);
+    OWNED jam_system *sys = fluid(cells[k], 1000, 3, fraction);
     double energy[2], momentum[3];
     run(sys, 50);
     moments(sys, energy, momentum);
@@ -133,7 +127,6 @@ CASE(equation_of_state) {
     assert_true(r.max_overlap < 1e-13);
     assert_true(fabs(energy[1] / energy[0] - 1) < 1e-12);
     for (int c = 0; c < 3; ++c) assert_true(fabs(momentum[c]) < 1e-9);
-    jam_destroy(sys);
   }
 }
 
@@ -145,7 +138,7 @@ CASE(shear_by_steps) {
                step = 0.05, least = sqrt(1 + 0.25 * step * step) - 0.5 * step;
   const double shear[9] = {0.0, step, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   double cell[9], energy[2], momentum[3], sum = 0.0;
-  jam_system *sys = fluid(cube, 400, 3, fraction);
+  OWNED jam_system *sys = fluid(cube, 400, 3, fraction);
   assert_int_equal(jam_strain(sys, shear, 9), JAM_E_OVERLAP); /* as it stands */
   for (int k = 0; k < 20; ++k) {
     DEFAULTS(compress, c);
@@ -164,5 +157,4 @@ CASE(shear_by_steps) {
   }
   print_message("shear by steps: mean p %.4f, Carnahan-Starling %.4f\n", sum, exact);
   assert_true(fabs(sum / exact - 1) < 0.02);
-  jam_destroy(sys);
 }

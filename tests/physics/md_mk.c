@@ -20,21 +20,18 @@ CASE(equation_of_state) {
     double fraction, zeta;
   } cases[] = {{3, 0.5, INFINITY}, {3, 1.5, INFINITY}, {3, 2.2, INFINITY},
                {2, 1.0, INFINITY}, {4, 0.5, INFINITY}, {3, 1.0, 3.0}};
-  size_t k;
-  for (k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
+  for (size_t k = 0; k < sizeof cases / sizeof cases[0]; ++k) {
     /* One quenched sample fluctuates: the mean over some. */
     const double excluded = pow(2.0, cases[k].dim) * cases[k].fraction;
     const double exact = 1.0 + 0.5 * excluded / (1.0 - excluded / 256.0);
     double sum = 0.0, square = 0.0, error;
     const int samples = 4;
-    int64_t seed;
-    for (seed = 1; seed <= samples; ++seed) {
-      jam_system *sys = planted(256, cases[k].dim, cases[k].fraction, cases[k].zeta, seed);
+    for (int64_t seed = 1; seed <= samples; ++seed) {
+      OWNED jam_system *sys = planted(256, cases[k].dim, cases[k].fraction, cases[k].zeta, seed);
       const jam_md_report report = run(sys, 100.0);
       assert_true(report.max_overlap < 1e-13 && report.energy_drift < 1e-12);
       sum += report.pressure / samples;
       square += report.pressure * report.pressure / samples;
-      jam_destroy(sys);
     }
     error = sqrt(fmax(0.0, square - sum * sum) / (samples - 1));
     print_message("d %d, phi %.2f, zeta %g: p %.4f(%.4f), exact %.4f\n", cases[k].dim, cases[k].fraction, cases[k].zeta,
@@ -45,14 +42,12 @@ CASE(equation_of_state) {
 
 /* zeta = 0 is the Euclidean model, bit for bit as far as the start goes. */
 CASE(no_shift_is_euclidean) {
-  jam_system *a = planted(60, 3, 0.2, 0.0, 4);
+  OWNED jam_system *a = planted(60, 3, 0.2, 0.0, 4);
   DEFAULTS(create, o);
   o.n = 60, o.seed = 4;
-  jam_system *b = created(&o);
+  OWNED jam_system *b = created(&o);
   same_view(a, b, JAM_VIEW_POSITIONS);
   assert_true(fabs(run(a, 100.0).pressure - run(b, 100.0).pressure) < 0.2);
-  jam_destroy(a);
-  jam_destroy(b);
 }
 
 CASE(too_dense_planting_is_refused) {

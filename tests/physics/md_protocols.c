@@ -6,21 +6,19 @@
 
 static jam_system *start(int64_t n, double fraction, double ratio, int32_t masses, double box) {
   double diameters[1000];
-  int64_t k;
   DEFAULTS(create, o);
   o.n = n;
   o.packing_fraction = fraction;
   o.masses = masses;
   o.box = box;
-  for (k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
+  for (int64_t k = 0; k < n; ++k) diameters[k] = k % 2 ? ratio : 1.0;
   return created_from(&o, NULL, 0, diameters, (size_t)n);
 }
 
 CASE(rates) {
   const int64_t sizes[] = {100, 800};
-  int k;
-  for (k = 0; k < 2; ++k) {
-    jam_system *a = start(sizes[k], 0.2, 1.4, 0, 3.0), *b = start(sizes[k], 0.2, 1.4, 0, 3.0);
+  for (int k = 0; k < 2; ++k) {
+    OWNED jam_system *a = start(sizes[k], 0.2, 1.4, 0, 3.0), *b = start(sizes[k], 0.2, 1.4, 0, 3.0);
     const double sigma = info_of(a).diameter_mean / 3.0;
     jam_md_report report;
     double rate;
@@ -39,8 +37,6 @@ CASE(rates) {
     print_message("N %d: relative rate %.6f of 0.02\n", (int)sizes[k], rate);
     assert_true(rate < 0.02 && rate > 0.02 * 0.995);
     assert_true(fabs(info_of(b).packing_fraction - 0.5) < 1e-13);
-    jam_destroy(a);
-    jam_destroy(b);
   }
 }
 
@@ -48,7 +44,7 @@ CASE(rates) {
  * stops. How many collisions that takes is no measure: late rearrangements, and pairs that hold much of the energy,
  * change it by factors. */
 CASE(quasi_static) {
-  jam_system *sys = start(200, 0.2, 1.4, 0, 1.0);
+  OWNED jam_system *sys = start(200, 0.2, 1.4, 0, 1.0);
   jam_md_report report;
   jam_status status;
   double worst = 0;
@@ -73,11 +69,10 @@ CASE(quasi_static) {
   assert_true(stops > 5 && worst < 0.1);
   assert_true(report.growth_rate < 1.1e-3 && report.growth_rate > 0.99e-3);
   assert_true(report.pressure >= 1e7 && report.max_overlap < 1e-13);
-  jam_destroy(sys);
 }
 
 CASE(time_limits) {
-  jam_system *sys = start(200, 0.3, 1.0, 0, 1.0);
+  OWNED jam_system *sys = start(200, 0.3, 1.0, 0, 1.0);
   jam_md_report report;
   report.struct_size = sizeof report;
   DEFAULTS(run, r);
@@ -95,20 +90,17 @@ CASE(time_limits) {
   c.resume = 1;
   assert_int_equal(jam_compress(sys, &c, &report), JAM_LIMIT); /* the time of the stage is over */
   assert_true(report.collisions == 0);
-  jam_destroy(sys);
 }
 
 /* Kinetic energy is shared alike, momentum and energy are kept, and the pressure does not depend on masses. */
 CASE(masses_by_volume) {
   double pressure[2], error[2];
-  int32_t masses;
-  for (masses = 0; masses < 2; ++masses) {
-    jam_system *sys = start(400, 0.35, 2.0, masses, 1.0);
+  for (int32_t masses = 0; masses < 2; ++masses) {
+    OWNED jam_system *sys = start(400, 0.35, 2.0, masses, 1.0);
     jam_md_report report;
     const double *v, *d;
     double large = 0, small = 0, momentum[3] = {0, 0, 0}, cubes = 0;
-    size_t len, n, k;
-    int sample;
+    size_t len, n;
     report.struct_size = sizeof report;
     DEFAULTS(run, r);
     r.collisions_per_particle = 500;
@@ -120,23 +112,22 @@ CASE(masses_by_volume) {
     assert_true(report.energy_drift < 1e-11);
     assert_int_equal(info_of(sys).masses, masses);
     jam_view(sys, JAM_VIEW_DIAMETERS, &d, &n);
-    for (k = 0; k < n; ++k) cubes += d[k] * d[k] * d[k] / (double)n;
+    for (size_t k = 0; k < n; ++k) cubes += d[k] * d[k] * d[k] / (double)n;
     r.collisions_per_particle = 10;
-    for (sample = 0; sample < 100; ++sample) {
+    for (int sample = 0; sample < 100; ++sample) {
       assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
       jam_view(sys, JAM_VIEW_VELOCITIES, &v, &len);
-      for (k = 0; k < len; ++k) {
+      for (size_t k = 0; k < len; ++k) {
         const double m = masses ? d[k / 3] * d[k / 3] * d[k / 3] / cubes : 1.0;
         *(k / 3 % 2 ? &large : &small) += m * v[k] * v[k] / (200.0 * 3.0 * 100.0);
         if (sample == 0) momentum[k % 3] += m * v[k];
       }
     }
-    for (k = 0; k < 3; ++k) assert_true(fabs(momentum[k]) < 1e-9);
+    for (size_t k = 0; k < 3; ++k) assert_true(fabs(momentum[k]) < 1e-9);
     print_message("masses %d: temperature of large spheres %.4f, of small ones %.4f, p %.3f(%.3f)\n", (int)masses,
                   large, small, report.pressure, report.pressure_error);
     /* 600 degrees of freedom each, some tens of independent samples: errors below one per cent. */
     assert_true(fabs(large - 1.0) < 0.03 && fabs(small - 1.0) < 0.03);
-    jam_destroy(sys);
   }
   assert_true(fabs(pressure[1] / pressure[0] - 1.0) < 0.005 + 3.0 * (error[0] + error[1]) / pressure[0]);
 }
@@ -153,11 +144,11 @@ static void compress(jam_system *sys, double growth, double pressure) {
 static void draw_velocities(jam_system *sys) {
   double v[3 * 1000], square = 0;
   const double *old;
-  size_t len, k;
+  size_t len;
   uint64_t bits = 88172645463325252u;
   assert_int_equal(jam_view(sys, JAM_VIEW_VELOCITIES, &old, &len), JAM_OK);
   assert_true(len <= sizeof v / sizeof v[0]);
-  for (k = 0; k < len; ++k) { /* sums of twelve uniform numbers are normal enough */
+  for (size_t k = 0; k < len; ++k) { /* sums of twelve uniform numbers are normal enough */
     int draw;
     for (v[k] = -6, draw = 0; draw < 12; ++draw) {
       bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
@@ -165,17 +156,16 @@ static void draw_velocities(jam_system *sys) {
     }
     square += v[k] * v[k];
   }
-  for (k = 0; k < len; ++k) v[k] *= sqrt((double)len / square);
+  for (size_t k = 0; k < len; ++k) v[k] *= sqrt((double)len / square);
   assert_int_equal(jam_set_velocities(sys, v, len), JAM_OK);
 }
 
 /* Pairs in contact are flat up to h ~ 1/p: g(sigma) = (p - 1) / (4 phi) for equal spheres. Beyond it falls. */
 CASE(gap_plateau) {
   const double pressures[] = {1e4, 1e6, 1e8};
-  jam_system *sys = start(256, 0.2, 1.0, 0, 1.0);
-  int k;
+  OWNED jam_system *sys = start(256, 0.2, 1.0, 0, 1.0);
   compress(sys, 1e-2, 500);
-  for (k = 0; k < 3; ++k) {
+  for (int k = 0; k < 3; ++k) {
     jam_md_report report;
     double bin[12][4], density[12], height;
     size_t needed;
@@ -202,16 +192,15 @@ CASE(gap_plateau) {
     assert_true(density[0] / height > 0.88 && density[0] / height < 1.03);
     assert_true(density[1] < density[0] * 1.03 && density[11] < 0.02 * density[0]);
   }
-  jam_destroy(sys);
 }
 
 /* The momentum that pairs exchange is the force network that the linear program finds. */
 CASE(forces_by_collisions) {
-  jam_system *sys = start(108, 0.2, 1.4, 0, 1.0), *jammed = NULL;
+  OWNED jam_system *sys = start(108, 0.2, 1.4, 0, 1.0), *jammed = NULL;
   int32_t *pair, *contact;
   int64_t *count;
   double *momentum, *force, time, sum = 0, cross = 0, square = 0, own = 0, deviation, covered = 0, all = 0;
-  size_t pairs, contacts, k, m;
+  size_t pairs, contacts, m;
   compress(sys, 1e-2, 500);
   compress(sys, 1e-3, 1e8);
   assert_int_equal(jam_copy(sys, &jammed), JAM_OK);
@@ -230,8 +219,8 @@ CASE(forces_by_collisions) {
   assert_int_equal(jam_observed_pairs(sys, pair, 2 * pairs, count, pairs, momentum, pairs, &time, &pairs), JAM_OK);
   assert_int_equal(jam_forces(jammed, force, contacts, &contacts), JAM_OK);
   assert_int_equal(jam_contacts(jammed, contact, 2 * contacts, &m), JAM_OK);
-  for (k = 0; k < pairs; ++k) all += momentum[k];
-  for (k = 0; k < contacts; ++k)
+  for (size_t k = 0; k < pairs; ++k) all += momentum[k];
+  for (size_t k = 0; k < contacts; ++k)
     for (m = 0; m < pairs; ++m)
       if (pair[2 * m] == contact[2 * k] && pair[2 * m + 1] == contact[2 * k + 1]) {
         sum += momentum[m];
@@ -249,6 +238,4 @@ CASE(forces_by_collisions) {
   assert_true(sum / all > 0.99); /* rattlers carry the rest */
   assert_true(deviation < 0.05);
   free(pair), free(count), free(momentum), free(contact), free(force);
-  jam_destroy(sys);
-  jam_destroy(jammed);
 }

@@ -37,13 +37,12 @@ CASE(three_disks_and_swaps_have_the_boltzmann_averages) {
   const double temperature = 0.05;
   const int m = 36;
   double z = 0.0, u = 0.0;
-  int a, b, c, d, with_swaps;
-  for (a = 0; a < m; ++a)
-    for (b = 0; b < m; ++b) {
+  for (int a = 0; a < m; ++a)
+    for (int b = 0; b < m; ++b) {
       const double x1 = (a + 0.5) / m - 0.5, y1 = (b + 0.5) / m - 0.5;
       const double e1 = energy(x1 * x1 + y1 * y1, 0.5 * (sigma[0] + sigma[1]));
-      for (c = 0; c < m; ++c)
-        for (d = 0; d < m; ++d) {
+      for (int c = 0; c < m; ++c)
+        for (int d = 0; d < m; ++d) {
           const double x2 = (c + 0.5) / m - 0.5, y2 = (d + 0.5) / m - 0.5;
           const double dx = nearest(x1 - x2), dy = nearest(y1 - y2);
           const double e = e1 + energy(x2 * x2 + y2 * y2, 0.5 * (sigma[0] + sigma[2])) +
@@ -54,8 +53,8 @@ CASE(three_disks_and_swaps_have_the_boltzmann_averages) {
         }
     }
   u /= 3.0 * z;
-  for (with_swaps = 0; with_swaps < 2; ++with_swaps) {
-    jam_system *sys = disks(3, sigma);
+  for (int with_swaps = 0; with_swaps < 2; ++with_swaps) {
+    OWNED jam_system *sys = disks(3, sigma);
     jam_monte_carlo_options o = options(2.0, temperature, 200000);
     const double *now = NULL;
     size_t len = 0;
@@ -70,7 +69,6 @@ CASE(three_disks_and_swaps_have_the_boltzmann_averages) {
       assert_true(r.swap_acceptance > 0.05 && r.swap_acceptance < 0.95);
     else
       assert_true(isnan(r.swap_acceptance));
-    jam_destroy(sys);
   }
 }
 
@@ -106,7 +104,7 @@ CASE(two_soft_disks) {
           const double p = exp(-e / temperature);
           z += p, u += p * e, w += p * virial;
         }
-      jam_system *sys = two_disks(cell, sigma, JAM_OVERLAP_ALLOW);
+      OWNED jam_system *sys = two_disks(cell, sigma, JAM_OVERLAP_ALLOW);
       const jam_monte_carlo_options o = options(2.0, temperature, 100000);
       const jam_monte_carlo_report r = run(sys, &o);
       const double energy = 0.5 * u / z, pressure = 1.0 + w / z / (2.0 * 2.0 * temperature);
@@ -114,7 +112,6 @@ CASE(two_soft_disks) {
                     r.energy_error, energy, r.pressure, r.pressure_error, pressure);
       assert_true(fabs(r.energy - energy) < 4.0 * r.energy_error && r.energy_error < 0.03 * energy);
       assert_true(fabs(r.pressure - pressure) < 4.0 * r.pressure_error && r.pressure_error < 0.02 * pressure);
-      jam_destroy(sys);
     }
 }
 
@@ -142,7 +139,7 @@ CASE(two_hard_disks) {
     }
   const double exact = 1.0 + sigma * border / (2.0 * 2.0 * area);
   assert_true(border < 0.9 * 2.0 * M_PI * sigma); /* images cover a part */
-  jam_system *sys = two_disks(oblique, sigma, JAM_OVERLAP_REFUSE);
+  OWNED jam_system *sys = two_disks(oblique, sigma, JAM_OVERLAP_REFUSE);
   const jam_monte_carlo_options o = options(0.0, 1.0, 1600000);
   const jam_monte_carlo_report r = run(sys, &o);
   print_message("two hard disks: p %.4f(%.4f), exact %.4f, acceptance %.3f\n", r.pressure, r.pressure_error, exact,
@@ -150,7 +147,6 @@ CASE(two_hard_disks) {
   assert_true(r.pressure_error < 0.03 * exact);
   assert_true(fabs(r.pressure - exact) < 4.0 * r.pressure_error + 0.01 * exact);
   assert_true(fabs(r.acceptance - 0.45) < 0.05); /* as tuned */
-  jam_destroy(sys);
 }
 
 CASE(hard_fluids_have_the_pressure_of_molecular_dynamics) {
@@ -158,7 +154,7 @@ CASE(hard_fluids_have_the_pressure_of_molecular_dynamics) {
   SIZED(jam_md_report, md);
   DEFAULTS(create, c);
   c.n = 256;
-  jam_system *sys = created(&c);
+  OWNED jam_system *sys = created(&c);
   DEFAULTS(compress, grow);
   grow.packing_fraction = 0.47;
   assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
@@ -172,7 +168,6 @@ CASE(hard_fluids_have_the_pressure_of_molecular_dynamics) {
   assert_true(r.pressure_error < 0.01 * md.pressure);
   assert_true(fabs(r.acceptance - 0.45) < 0.05);
   assert_true(r.msd > 0.0 && r.energy == 0.0);
-  jam_destroy(sys);
 }
 
 static int32_t stop(const jam_progress *p, void *user) {
@@ -232,16 +227,15 @@ CASE(resumed_runs_have_the_same_bits_and_hard_spheres_stay_apart) {
 
 CASE(runs_from_one_state_have_streams_of_their_own) {
   const double sigma[3] = {0.28, 0.40, 0.48}, instants[2] = {5.0, 50.0};
-  jam_system *sys = disks(3, sigma);
+  OWNED jam_system *sys = disks(3, sigma);
   jam_monte_carlo_options o = options(2.0, 0.001, 1000); /* sweeps as by default: instants count */
   double displacement[2][2 * 6], alone[12];
-  size_t k;
   DEFAULTS(isoconf, i);
   i.runs = 2;
   i.block = 1;
   o.step = 0.05;
   assert_int_equal(jam_isoconf(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
-  for (k = 0; k < 2; ++k)
+  for (size_t k = 0; k < 2; ++k)
     assert_int_equal(jam_isoconf_displacements(sys, (int64_t)k, displacement[k], 12, NULL, 0, NULL), JAM_OK);
   assert_memory_not_equal(displacement[0], displacement[1], sizeof displacement[0]);
   i.first_run = 1;
@@ -249,19 +243,17 @@ CASE(runs_from_one_state_have_streams_of_their_own) {
   assert_int_equal(jam_isoconf(sys, &i, &o, instants, 2, NULL, 0, NULL), JAM_OK);
   assert_int_equal(jam_isoconf_displacements(sys, 0, alone, 12, NULL, 0, NULL), JAM_OK);
   assert_memory_equal(alone, displacement[1], sizeof alone);
-  jam_destroy(sys);
 }
 
 CASE(hard_spheres_in_contact_cannot_move) {
   jam_monte_carlo_options o = options(0.0, 1.0, 10);
   DEFAULTS(create, c);
   c.n = 100;
-  jam_system *sys = created(&c);
+  OWNED jam_system *sys = created(&c);
   DEFAULTS(compress, grow);
   grow.pressure = 1e6;
   assert_int_equal(jam_compress(sys, &grow, NULL), JAM_OK);
   assert_int_equal(jam_crunch(sys, NULL, NULL), JAM_OK);
   assert_int_equal(jam_scale_diameters(sys, 1.0 - 1e-14), JAM_OK);
   SAYS(jam_monte_carlo(sys, &o, NULL), JAM_E_ARGUMENT, "contact");
-  jam_destroy(sys);
 }

@@ -9,22 +9,21 @@
  * jump. The status says so, and the right network is one of the two that it names. */
 static void unclear_jump_of(double part) {
   jam_crunch_report report;
-  jam_system *s = crunched(3, 80, 0.2, 0, &report);
+  OWNED jam_system *s = crunched(3, 80, 0.2, 0, &report);
   jam_geometry_report g = {.struct_size = sizeof(jam_geometry_report)};
   const double *x;
   double *y;
-  size_t m, k;
+  size_t m;
   const double size = part * report.min_gap * report.diameter_mean;
   assert_int_equal(jam_view(s, JAM_VIEW_POSITIONS, &x, &m), JAM_OK);
   y = malloc(m * sizeof *y);
-  for (k = 0; k < m; ++k) y[k] = x[k] + 0.2 * size * sin(1.0 + (double)(k * k));
+  for (size_t k = 0; k < m; ++k) y[k] = x[k] + 0.2 * size * sin(1.0 + (double)(k * k));
   assert_int_equal(jam_scale_diameters(s, 1.0 - part * report.min_gap), JAM_OK);
   assert_int_equal(jam_set_positions(s, y, m), JAM_OK);
   assert_int_equal(jam_contacts_from_geometry(s, NULL, &g), JAM_AMBIGUOUS);
   assert_true(g.jump < 100.0 && g.second_contacts > 0);
   assert_true(g.contacts == report.contacts || g.second_contacts == report.contacts);
   free(y);
-  jam_destroy(s);
 }
 
 CASE(an_unclear_gap_jump_is_ambiguous) {
@@ -34,16 +33,14 @@ CASE(an_unclear_gap_jump_is_ambiguous) {
 
 /* Three disks that touch each other: places relative to the first, and numbers; 0 when there are none. */
 static int touching_three(const struct network *w, double place[3][2], int32_t who[3]) {
-  int64_t k, l, m;
-  int c;
-  for (k = 0; k < w->contacts; ++k)
-    for (l = 0; l < w->contacts; ++l) {
+  for (int64_t k = 0; k < w->contacts; ++k)
+    for (int64_t l = 0; l < w->contacts; ++l) {
       if (l == k || w->pair[2 * l] != w->pair[2 * k]) continue;
-      for (m = 0; m < w->contacts; ++m) {
+      for (int64_t m = 0; m < w->contacts; ++m) {
         const int32_t a = w->pair[2 * m], b = w->pair[2 * m + 1], p = w->pair[2 * k + 1], q = w->pair[2 * l + 1];
         if (!((a == p && b == q) || (a == q && b == p))) continue;
         who[0] = w->pair[2 * k], who[1] = p, who[2] = q;
-        for (c = 0; c < 2; ++c) {
+        for (int c = 0; c < 2; ++c) {
           place[0][c] = 0.0;
           place[1][c] = -sigma(w, k) * w->normal[2 * k + c];
           place[2][c] = -sigma(w, l) * w->normal[2 * l + c];
@@ -56,21 +53,19 @@ static int touching_three(const struct network *w, double place[3][2], int32_t w
 
 /* The disk in the hole between three, at the same relative gap from each: Newton's method for its place and radius. */
 static void fill_hole(double place[3][2], const double *radius, double gap, double *p, double *r) {
-  int it, a, c;
   p[0] = (place[1][0] + place[2][0]) / 3.0, p[1] = (place[1][1] + place[2][1]) / 3.0;
   *r = 0.2 * radius[0];
-  for (it = 0; it < 50; ++it) {
+  for (int it = 0; it < 50; ++it) {
     double j[3][4], det;
-    for (a = 0; a < 3; ++a) {
+    for (int a = 0; a < 3; ++a) {
       const double x = p[0] - place[a][0], y = p[1] - place[a][1], l = sqrt(x * x + y * y);
       j[a][0] = x / l, j[a][1] = y / l, j[a][2] = -(1.0 + gap), j[a][3] = (1.0 + gap) * (*r + radius[a]) - l;
     }
-    for (c = 0; c < 3; ++c) /* elimination: the matrix is far from singular inside the triangle */
-      for (a = 0; a < 3; ++a)
+    for (int c = 0; c < 3; ++c) /* elimination: the matrix is far from singular inside the triangle */
+      for (int a = 0; a < 3; ++a)
         if (a != c) {
-          int q;
           det = j[a][c] / j[c][c];
-          for (q = c; q < 4; ++q) j[a][q] -= det * j[c][q];
+          for (int q = c; q < 4; ++q) j[a][q] -= det * j[c][q];
         }
     p[0] += j[0][3] / j[0][0], p[1] += j[1][3] / j[1][1], *r += j[2][3] / j[2][2];
   }
@@ -85,11 +80,10 @@ CASE(the_null_space_decides_between_two_jumps) {
   jam_system *s = NULL;
   double place[3][2], radius[3], p[2], r, x[162], d[81], gap, digits, smallest = INFINITY;
   int32_t who[3] = {0, 0, 0};
-  int k;
   assert_int_equal(report.excess_contacts, 0);
   assert_true(touching_three(&w, place, who));
-  for (k = 0; k < 3; ++k) radius[k] = 0.5 * w.diameter[who[k]];
-  for (k = 0; k < 80; ++k) smallest = fmin(smallest, w.diameter[k]);
+  for (int k = 0; k < 3; ++k) radius[k] = 0.5 * w.diameter[who[k]];
+  for (int k = 0; k < 80; ++k) smallest = fmin(smallest, w.diameter[k]);
   /* The wider jump is to be that below the gaps of the rattler, gap / digits, and less than the square of the next,
    * above / gap. */
   assert_int_equal(jam_copy(w.sys, &s), JAM_OK);
@@ -101,9 +95,9 @@ CASE(the_null_space_decides_between_two_jumps) {
   fill_hole(place, radius, gap, p, &r);
   assert_true(r > 0.0 && r < radius[0]);
   const double *old = view_of(w.sys, JAM_VIEW_POSITIONS);
-  for (k = 0; k < 160; ++k) x[k] = old[k];
-  for (k = 0; k < 80; ++k) d[k] = w.diameter[k];
-  for (k = 0; k < 2; ++k) x[160 + k] = old[2 * who[0] + k] + p[k];
+  for (int k = 0; k < 160; ++k) x[k] = old[k];
+  for (int k = 0; k < 80; ++k) d[k] = w.diameter[k];
+  for (int k = 0; k < 2; ++k) x[160 + k] = old[2 * who[0] + k] + p[k];
   d[80] = 2.0 * r;
   DEFAULTS(create, o);
   o.dim = 2, o.n = 81;

@@ -11,18 +11,17 @@ static double touch(double a, double b, double delta) { return 0.5 * (a + b) * (
 /* Smallest gap over all pairs of nearest images by the rule above; *unlike: contacts of unequal spheres. */
 static double worst_gap(const jam_system *sys, double delta, double tolerance, int *unlike) {
   const double *x, *s;
-  size_t len, i, j;
+  size_t len;
   double worst = 1e300;
-  int c;
   const jam_info info = info_of(sys);
   assert_true(info.non_additivity == delta);
   jam_view(sys, JAM_VIEW_POSITIONS, &x, &len);
   jam_view(sys, JAM_VIEW_DIAMETERS, &s, &len);
   *unlike = 0;
-  for (i = 0; i < len; ++i)
-    for (j = 0; j < i; ++j) {
+  for (size_t i = 0; i < len; ++i)
+    for (size_t j = 0; j < i; ++j) {
       double r2 = 0.0, gap;
-      for (c = 0; c < info.dim; ++c) {
+      for (int c = 0; c < info.dim; ++c) {
         double dx = x[i * (size_t)info.dim + (size_t)c] - x[j * (size_t)info.dim + (size_t)c];
         dx -= info.box * nearbyint(dx / info.box);
         r2 += dx * dx;
@@ -36,8 +35,7 @@ static double worst_gap(const jam_system *sys, double delta, double tolerance, i
 
 static jam_system *mixture(int dim, double delta, int64_t seed) {
   double diameter[N];
-  int i;
-  for (i = 0; i < N; ++i) diameter[i] = i < N / 2 ? 1.0 : 1.4;
+  for (int i = 0; i < N; ++i) diameter[i] = i < N / 2 ? 1.0 : 1.4;
   DEFAULTS(create, o);
   o.dim = dim, o.n = N, o.seed = seed, o.box = 2.0, o.packing_fraction = 0.25, o.non_additivity = delta;
   return created_from(&o, NULL, 0, diameter, N);
@@ -45,10 +43,10 @@ static jam_system *mixture(int dim, double delta, int64_t seed) {
 
 CASE(jams_and_certifies) {
   const double deltas[] = {-0.1, 0.1};
-  int dim, k, unlike;
-  for (dim = 2; dim <= 3; ++dim)
-    for (k = 0; k < 2; ++k) {
-      jam_system *sys = mixture(dim, deltas[k], 3 + k);
+  int unlike;
+  for (int dim = 2; dim <= 3; ++dim)
+    for (int k = 0; k < 2; ++k) {
+      OWNED jam_system *sys = mixture(dim, deltas[k], 3 + k);
       double start = worst_gap(sys, deltas[k], 0.0, &unlike), end;
       assert_true(start >= 0.0);
       SIZED(jam_crunch_report, r);
@@ -62,7 +60,6 @@ CASE(jams_and_certifies) {
       assert_true(r.force_residual < 1e-12);
       assert_true(r.min_force > 0.0 && r.excess_contacts >= 0);
       assert_true(unlike > N / 8); /* the rule of unlike pairs holds the network up */
-      jam_destroy(sys);
     }
 }
 

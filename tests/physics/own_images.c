@@ -63,7 +63,7 @@ CASE(one_sphere_ends_at_a_lattice) {
   int found[kinds] = {0};
   for (int32_t d = 2; d <= 4; ++d)
     for (uint64_t seed = 1; seed <= 6; ++seed) {
-      jam_system *sys = alone(d, seed);
+      OWNED jam_system *sys = alone(d, seed);
       const jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
       int k = 0;
       while (k < kinds && !(lattices[k].dim == d && fabs(r.packing_fraction - lattices[k].density) < 1e-12)) ++k;
@@ -80,14 +80,13 @@ CASE(one_sphere_ends_at_a_lattice) {
                   strict.undercoordinated == 0);
       assert_int_equal(strict.self_stresses, r.contacts - (d * (d + 1) / 2 - 1));
       rigidity_test(sys, JAM_RIGIDITY_COLLECTIVE, JAM_OK); /* a motion of one sphere is a translation */
-      jam_destroy(sys);
     }
   for (int k = 0; k < 3; ++k) assert_true(found[k] > 0);
 }
 
 /* Modes, stresses and moduli of one sphere: only strains cost energy. */
 CASE(analysis_of_one_sphere) {
-  jam_system *sys = alone(3, 1);
+  OWNED jam_system *sys = alone(3, 1);
   jam_moduli_report moduli = {.struct_size = sizeof moduli};
   double l[3], cell[9], table[36], s, force[6], residual;
   const double *sigma;
@@ -111,13 +110,12 @@ CASE(analysis_of_one_sphere) {
   assert_int_equal(jam_moduli(sys, NULL, &moduli), JAM_OK);
   assert_true(fabs(moduli.bulk - 2.0 / 3.0 * sigma[0] * sigma[0] / (cell[0] * cell[4] * cell[8])) < 1e-12);
   assert_true(moduli.shear_min > 0.4 * moduli.bulk && moduli.shear == moduli.shear_affine);
-  jam_destroy(sys);
 }
 
 /* A strain of the edges alone leaves a brick: not strictly jammed, and the flex is a strain. A cube is at rest then. */
 CASE(one_sphere_in_a_brick) {
   const double cell[9] = {1.0, 0.0, 0.0, 0.0, 1.2, 0.0, 0.0, 0.0, 0.9}, x[3] = {0.5, 0.5, 0.5};
-  jam_system *sys = in_cell(3, 1, cell, x, 0.5);
+  OWNED jam_system *sys = in_cell(3, 1, cell, x, 0.5);
   double move[3], strain[9], size = 0.0;
   const jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_EDGES, JAM_OK);
   assert_true(fabs(r.packing_fraction - M_PI / 6.0) < 1e-12);
@@ -126,14 +124,13 @@ CASE(one_sphere_in_a_brick) {
   for (int k = 0; k < 9; ++k) size = fmax(size, fabs(strain[k]));
   assert_true(size > 1e-3);
   assert_true(crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK).packing_fraction > r.packing_fraction + 0.1);
-  jam_destroy(sys);
 }
 
 /* Two disks in a narrow brick touch their own images first. In the fixed cell these are no contacts; in a free one the
  * two end at the hexagonal lattice, which counts all six neighbours of each. */
 CASE(two_disks_in_a_narrow_cell) {
   const double cell[4] = {1.0, 0.0, 0.0, 4.0}, x[4] = {0.1, 0.3, 0.45, 2.2};
-  jam_system *fixed = in_cell(2, 2, cell, x, 0.5), *sys = NULL;
+  OWNED jam_system *fixed = in_cell(2, 2, cell, x, 0.5), *sys = NULL;
   int32_t pair[12], own = 0;
   size_t m;
   assert_int_equal(jam_copy(fixed, &sys), JAM_OK);
@@ -147,7 +144,6 @@ CASE(two_disks_in_a_narrow_cell) {
   assert_int_equal(jam_contacts(sys, pair, 12, &m), JAM_OK);
   for (int k = 0; k < 6; ++k) own += pair[2 * k] == pair[2 * k + 1];
   assert_int_equal(own, 2);
-  jam_destroy(fixed), jam_destroy(sys);
 }
 
 /* Two spheres of d = 5 that reach a cubic lattice of own images in the fixed cube: narrow programs strain it alone, and
@@ -155,14 +151,12 @@ CASE(two_disks_in_a_narrow_cell) {
 CASE(strains_alone_are_steps) {
   DEFAULTS(create, o);
   o.dim = 5, o.n = 2, o.seed = 49, o.packing_fraction = 0.02;
-  jam_system *sys = created(&o);
+  OWNED jam_system *sys = created(&o);
   assert_int_equal(crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK).strictly_jammed, JAM_VERDICT_YES);
-  jam_destroy(sys);
 }
 
 CASE(one_sphere_in_a_fixed_cell_is_refused) {
-  jam_system *sys = alone(3, 1);
+  OWNED jam_system *sys = alone(3, 1);
   crunch_with_strain(sys, JAM_STRAIN_NONE, JAM_E_TOO_FEW);
   assert_true(strstr(jam_last_error(), "free cell") != NULL);
-  jam_destroy(sys);
 }

@@ -16,7 +16,7 @@ static double *column(const jam_system *sys, size_t which, size_t *n) {
 CASE(energy_and_pressure) {
   const double alphas[] = {2.0, 2.5};
   for (int a = 0; a < 2; ++a) {
-    jam_system *sys = soft_start(64, 0.72, 2);
+    OWNED jam_system *sys = soft_start(64, 0.72, 2);
     jam_decompress_report r = {.struct_size = sizeof r};
     DEFAULTS(decompress, o);
     o.alpha = alphas[a], o.isostatic = 0, o.crunch = 0, o.distance = 1e-10;
@@ -33,14 +33,13 @@ CASE(energy_and_pressure) {
     for (size_t k = n - 2; k < n; ++k)
       assert_true(fabs(pow(phi[k], 1.0 / 3.0) / fraction - 1.0 - x[k]) < 1e-3 * x[k] + 1e-15);
     free(e), free(p), free(phi), free(x);
-    jam_destroy(sys);
   }
 }
 
 /* The network from above is crunch's from below; so is phi_J, and far down the forces. */
 CASE(both_ways_to_jamming) {
   for (int64_t seed = 1; seed <= 3; ++seed) {
-    jam_system *sys = soft_start(64, 0.70, seed);
+    OWNED jam_system *sys = soft_start(64, 0.70, seed);
     jam_decompress_report r = {.struct_size = sizeof r};
     DEFAULTS(decompress, o);
     o.isostatic = 0, o.distance = 1e-11;
@@ -48,7 +47,6 @@ CASE(both_ways_to_jamming) {
     assert_true(r.same_network == 1 && r.common_contacts == r.contacts);
     assert_true(fabs(r.jammed_fraction / r.crunch_fraction - 1.0) < 1e-12);
     assert_true(r.force_difference < 1e-4);
-    jam_destroy(sys);
   }
 }
 
@@ -57,7 +55,7 @@ CASE(both_ways_to_jamming) {
 CASE(call_after_call) {
   const double alphas[] = {2.0, 2.5, 1.5};
   for (int a = 0; a < 3; ++a) {
-    jam_system *sys = soft_start(64, 0.72, 1);
+    OWNED jam_system *sys = soft_start(64, 0.72, 1);
     jam_decompress_report r = {.struct_size = sizeof r};
     DEFAULTS(decompress, o);
     o.alpha = alphas[a], o.isostatic = 0, o.crunch = 0, o.energy_factor = 0.1;
@@ -66,6 +64,5 @@ CASE(call_after_call) {
       assert_int_equal(jam_decompress(sys, &o, &r), JAM_OK);
       assert_true(r.distance <= o.distance && r.force_residual <= o.force_tolerance);
     }
-    jam_destroy(sys);
   }
 }

@@ -55,7 +55,7 @@ CASE(disordered) {
   for (size_t k = 0; k < sizeof cases / sizeof *cases; ++k)
     for (int64_t seed = 1; seed <= cases[k].seeds; ++seed) {
       const int32_t d = cases[k].dim;
-      jam_system *sys = start(d, cases[k].n, seed, 1, d == 2 ? 0.5 : d == 3 ? 0.3 : 0.15), *fixed = NULL;
+      OWNED jam_system *sys = start(d, cases[k].n, seed, 1, d == 2 ? 0.5 : d == 3 ? 0.3 : 0.15), *fixed = NULL;
       assert_int_equal(jam_copy(sys, &fixed), JAM_OK);
       const jam_crunch_report before = crunch_with_strain(fixed, JAM_STRAIN_NONE, JAM_OK),
                               r = crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
@@ -72,8 +72,6 @@ CASE(disordered) {
       assert_true(shear_stress(sys, d) < 1e-8);
       assert_true(shear_stress(fixed, d) > 1e-4);
       assert_true(fabs(volume(sys, d) - 1.0) < 1e-12);
-      jam_destroy(sys);
-      jam_destroy(fixed);
     }
 }
 
@@ -83,21 +81,19 @@ CASE(small_crystals) {
   const double fcc = M_PI / sqrt(18.0), bcc = M_PI * sqrt(3.0) / 8.0;
   for (int64_t n = 2; n <= 4; n += 2)
     for (int64_t seed = 1; seed <= 3; ++seed) {
-      jam_system *sys = start(3, n, seed, 0, 0.1), *fixed = NULL;
+      OWNED jam_system *sys = start(3, n, seed, 0, 0.1), *fixed = NULL;
       assert_int_equal(jam_copy(sys, &fixed), JAM_OK);
       if (n == 2) assert_true(fabs(crunch_with_strain(fixed, JAM_STRAIN_NONE, JAM_OK).packing_fraction - bcc) < 1e-12);
       const jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_FREE, JAM_OK);
       assert_true(fabs(r.packing_fraction - fcc) < 1e-12);
       assert_int_equal(r.strictly_jammed, JAM_VERDICT_YES);
-      jam_destroy(sys);
-      jam_destroy(fixed);
     }
 }
 
 /* Edges alone keep the cell a brick: its diagonal stress is even, the rest is not; the strict test still says no. */
 CASE(parts_of_the_strain) {
   double cell[4];
-  jam_system *sys = start(2, 64, 1, 1, 0.5), *tilted = NULL;
+  OWNED jam_system *sys = start(2, 64, 1, 1, 0.5), *tilted = NULL;
   assert_int_equal(jam_copy(sys, &tilted), JAM_OK);
   jam_crunch_report r = crunch_with_strain(sys, JAM_STRAIN_EDGES, JAM_OK);
   assert_int_equal(r.jammed, 1);
@@ -111,6 +107,4 @@ CASE(parts_of_the_strain) {
   assert_true(fabs(cell[2]) > 1e-6 && fabs(cell[0] / cell[3] - 1.0) < 1e-12);
   crunch_with_strain(sys, 4, JAM_E_ARGUMENT);
   crunch_with_strain(sys, -1, JAM_E_ARGUMENT);
-  jam_destroy(sys);
-  jam_destroy(tilted);
 }

@@ -16,7 +16,7 @@ CASE(one_sphere_has_its_exact_pressure) {
   const walled box = {"box", 3, JAM_CONTAINER_BRICK, 7, {1.0, 2.0, 1.5}};
   const double v[] = {0.7, -1.9, 1.1}, x[] = {0.4, 1.1, 0.8}, sigma = 0.3;
   jam_md_report report;
-  jam_system *sys = NULL;
+  OWNED jam_system *sys = NULL;
   assert_int_equal(create_walled(&box, 1, 0.01, 1, NULL, &sys), JAM_OK);
   const double *diameter, v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
   double sum = 0.0;
@@ -34,14 +34,13 @@ CASE(one_sphere_has_its_exact_pressure) {
   }
   assert_true(fabs(report.pressure / sum - 1.0) < 1e-3); /* the virial: the mean of the three axes */
   assert_true(report.energy_drift < 1e-12);
-  jam_destroy(sys);
 }
 
 /* Between two walls its motion along them is a drift, as that of all spheres together is. So z has all of the heat, and
  * beta P V / N = L / (L - sigma), whatever velocities the seed has drawn. */
 CASE(one_sphere_between_two_walls) {
   for (int seed = 1; seed <= 5; ++seed) {
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     jam_md_report report;
     assert_int_equal(create_walled(&walled_scenes[SLIT], 1, 0.01, seed, NULL, &sys), JAM_OK);
     const double *diameter = view_of(sys, JAM_VIEW_DIAMETERS);
@@ -49,14 +48,13 @@ CASE(one_sphere_between_two_walls) {
     run(sys, 1e5, &report);
     for (int w = 0; w < 2; ++w) assert_true(fabs(of_wall(sys, w, JAM_WALL_PRESSURE) / exact - 1.0) < 1e-3);
     assert_true(fabs(report.pressure / (1.0 + (exact - 1.0) / 3.0) - 1.0) < 1e-3); /* one of three axes */
-    jam_destroy(sys);
   }
 }
 
 CASE(energy_is_kept_and_walls_agree_with_the_virial) {
   for (int k = 0; k < WALLED; ++k) {
     const walled *s = &walled_scenes[k];
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     jam_md_report report;
     double mean = 0.0, axes = 0.0;
     assert_int_equal(create_walled(s, 100, s->dim == 2 ? 0.35 : 0.2, 11, NULL, &sys), JAM_OK);
@@ -75,7 +73,6 @@ CASE(energy_is_kept_and_walls_agree_with_the_virial) {
       assert_true(of_wall(sys, w, JAM_WALL_GAP) > -1e-12);
     }
     if (axes == s->dim) assert_true(fabs(mean / s->dim / report.pressure - 1.0) < 1e-3);
-    jam_destroy(sys);
   }
 }
 
@@ -87,7 +84,7 @@ static double carnahan_starling(double phi) { return (1.0 + phi + phi * phi - ph
 CASE(contact_theorem_and_bulk_pressure) {
   const walled slit = {"wide slit", 3, JAM_CONTAINER_BRICK, 4, {1.0, 1.0, 2.4}};
   enum { N = 400, SAMPLES = 1500 };
-  jam_system *sys = NULL;
+  OWNED jam_system *sys = NULL;
   jam_md_report report;
   const double *x, *sigma;
   double wall = 0.0, middle = 0.0, near[2] = {0.0, 0.0};
@@ -115,7 +112,6 @@ CASE(contact_theorem_and_bulk_pressure) {
   /* About 1e4 spheres in the layers: one per cent each, doubled by the extrapolation. */
   assert_true(fabs(contact / beta_p - 1.0) < 0.06);
   assert_true(fabs(bulk / beta_p - 1.0) < 0.02);
-  jam_destroy(sys);
 }
 
 CASE(growth_ends_without_overlap) {
@@ -123,7 +119,7 @@ CASE(growth_ends_without_overlap) {
     for (int fine = 0; fine < 2; ++fine) {
       const walled *s = &walled_scenes[k];
       double sizes[80];
-      jam_system *sys = NULL;
+      OWNED jam_system *sys = NULL;
       jam_md_report report = {.struct_size = sizeof report};
       for (int i = 0; i < 80; ++i) sizes[i] = i % 2 ? 1.0 : 1.4;
       assert_int_equal(create_walled(s, 80, 0.15, 2 + fine, sizes, &sys), JAM_OK);
@@ -140,7 +136,6 @@ CASE(growth_ends_without_overlap) {
         touched += h < 1e3 / o.pressure;
       }
       assert_true(touched > 0);
-      jam_destroy(sys);
     }
 }
 
@@ -149,7 +144,7 @@ CASE(monte_carlo_agrees) {
   const int scenes[] = {SLIT, CAN, CIRCLE};
   for (int k = 0; k < 3; ++k) {
     const walled *s = &walled_scenes[scenes[k]];
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     jam_md_report md;
     jam_monte_carlo_report mc = {.struct_size = sizeof mc};
     DEFAULTS(monte_carlo, o);
@@ -162,7 +157,6 @@ CASE(monte_carlo_agrees) {
                   mc.pressure_error);
     assert_true(fabs(mc.pressure - md.pressure) < 5.0 * mc.pressure_error + 0.01 * md.pressure);
     for (int w = 0; w < count_walls(sys); ++w) assert_true(of_wall(sys, w, JAM_WALL_GAP) > -1e-12);
-    jam_destroy(sys);
   }
 }
 
@@ -170,7 +164,7 @@ CASE(flat_walls_hold_in_four_and_five_dimensions) {
   const walled s[] = {{"slit of d = 4", 4, JAM_CONTAINER_BRICK, 8, {1, 1, 1, 1}},
                       {"box of d = 5", 5, JAM_CONTAINER_BRICK, 31, {1, 1, 1, 1, 1}}};
   for (int k = 0; k < 2; ++k) {
-    jam_system *sys = NULL;
+    OWNED jam_system *sys = NULL;
     jam_md_report report;
     assert_int_equal(create_walled(&s[k], 60, 0.02, 1, NULL, &sys), JAM_OK);
     run(sys, 2000.0, &report);
@@ -178,6 +172,5 @@ CASE(flat_walls_hold_in_four_and_five_dimensions) {
     for (int w = 0; w < count_walls(sys); ++w) {
       assert_true(of_wall(sys, w, JAM_WALL_GAP) > -1e-12 && of_wall(sys, w, JAM_WALL_PRESSURE) > 1.0);
     }
-    jam_destroy(sys);
   }
 }

@@ -163,17 +163,6 @@ CASE(wrong_forces_prove_nothing) {
   assert_false(prove(unbalanced.s, unbalanced.e).trapped);
 }
 
-CASE(an_overlap_proves_nothing) {
-  Lattice l = triangular(6, 6);
-  // A disk without contacts in the list, put into a hole that is too small for it.
-  Packing &p = l.packing;
-  p.position.push_back(0.5), p.position.push_back(0.28);
-  p.diameter.push_back(0.4);
-  l.network.coordination.push_back(0);
-  Refined r(l);
-  assert_false(prove(r.s, r.e).trapped);
-}
-
 // No listed contact is open by more than rounding of two doubles, no force pulls, and no pair overlaps by more.
 void check_closed(const ProofScene &s) {
   const ProofEquations e = evaluate(s);

@@ -27,26 +27,18 @@ class Converting(unittest.TestCase):
         self.assertEqual((steps["phase"] == "lp").sum(), packing.report.lp_solves)
         with self.assertRaisesRegex(ValueError, "spheres, contacts, history"):
             packing.to_pandas("forces")
+        packing.to_pandas()["x"][:] = 0.0  # a copy
+        np.testing.assert_array_equal(spheres["x"], packing.positions[:, 0])
 
     @needs("pandas")
-    def test_before_a_crunch_there_are_spheres_alone(self):
+    def test_frames_without_forces(self):
         loose = jam.System.random(n=8, dim=4)
         self.assertEqual(list(loose.to_pandas()), ["x0", "x1", "x2", "x3", "diameter"])
         with self.assertRaises(jam.errors.StateError):
             loose.to_pandas("contacts")
-
-    @needs("pandas")
-    def test_contacts_by_distance_have_no_forces(self):
         bed = jam.System.from_arrays([[0.5, 0.5], [1.5, 0.5]], 0.99, cell=[3, 3], dim=2)
         bed.contacts_by_distance(0.05)
         self.assertEqual(list(bed.to_pandas("contacts")), ["i", "j", "nx", "ny", "gap"])
-
-    @needs("pandas")
-    def test_a_frame_is_a_copy(self):
-        packing = crunched_disks()
-        before = packing.positions.copy()
-        packing.to_pandas()["x"][:] = 0.0
-        np.testing.assert_array_equal(packing.positions, before)
 
     @needs("networkx")
     def test_the_graph_balances(self):

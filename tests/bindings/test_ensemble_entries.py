@@ -1,4 +1,4 @@
-"""Entries of an ensemble are used as systems are; its tables have words and options; how many packings a time allows."""
+"""Entries of an ensemble are used as systems are; its tables have words and options."""
 import unittest
 
 import numpy as np

@@ -3,7 +3,6 @@
 # FOLDER/bare; each line has a copy of it, with the source and nothing else. Lines: browser, python, debian, cmake,
 # octave; npm and Windows are tried by pkgconfig/release.sh. Commands are those of README, packages those of the pages
 # that it links. For root, with a network.
-# JAM_BARE_TOOLCHAIN: a file with settings for CMake, such as JAM_DIMENSIONS, to try the commands alone.
 set -eu
 source=$(cd "$(dirname "$0")/../.." && pwd)
 mkdir -p "$1"
@@ -28,13 +27,12 @@ begin() {
   echo force-unsafe-io >"$root/etc/dpkg/dpkg.cfg.d/unsafe"  # the copy is removed at the end
   mkdir "$root/libjam"
   git -C "$source" archive HEAD | tar -xf - -C "$root/libjam"
-  [ -z "${JAM_BARE_TOOLCHAIN:-}" ] || cp "$JAM_BARE_TOOLCHAIN" "$root/srv/toolchain.cmake"
 }
 # inside COMMAND: in that system, in the folder of the source. Programs find their libraries by /proc.
 inside() {
   unshare -m sh -c 'mount -t proc proc "$1/proc" && exec chroot "$@"' - \
     "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/srv DEBIAN_FRONTEND=noninteractive \
-    ${JAM_BARE_TOOLCHAIN:+CMAKE_TOOLCHAIN_FILE=/srv/toolchain.cmake} sh -euc "cd /libjam; $1" \
+    sh -euc "cd /libjam; $1" \
     >>"$root.log" 2>&1 || { tail -30 "$root.log"; echo "failed in $root: $1"; exit 1; }
 }
 install() { inside "apt-get update -q && apt-get install -q -y --no-install-recommends $*"; }

@@ -172,14 +172,6 @@ class JamPack(InFolder):
         self.assertTrue(again["jammed"])
         self.assertAlmostEqual(again["packing_fraction"], report["packing_fraction"], 10)
 
-    def test_dynamics_only(self):
-        report = self.report("--n", 200, "--nve", 20, "--growth", "1e-2:100", "--no-crunch")
-        self.assertIsNone(report["contacts"])
-        self.assertIsNone(report["jammed"])
-        self.assertEqual(report["stop_reason"], "pressure")
-        self.assertGreater(report["collisions"], 20 * 200 / 2)
-        self.assertGreaterEqual(report["pressure"], 100)
-
     def test_a_stage_that_falls_short_is_seen(self):
         start, out = self.dir / "start.dat", self.dir / "out.dat"
         start.write_text("3\n2\ndiameters\n0.0 0.0 0.0 1.0\n0.5 0.5 0.5 0.01\n")

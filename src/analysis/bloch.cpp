@@ -1,11 +1,10 @@
-#include "analysis/bloch.hpp"
+#include "analysis/modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include <Eigen/Dense>
 
-#include "analysis/tuning.hpp"
 #include "core/call_scope.hpp"
 #include "core/math.hpp"
 

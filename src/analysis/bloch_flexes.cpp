@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "analysis/bloch.hpp"
-#include "analysis/tuning.hpp"
+#include "analysis/modes.hpp"
 #include "core/call_scope.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "network/flex.hpp"

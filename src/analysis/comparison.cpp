@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <limits>
 
 #include "analysis/structure.hpp"
@@ -50,15 +48,7 @@ void check_comparable(const Packing &a, const Packing &b) {
   check_models(a, b);
 }
 
-__attribute__((format(printf, 2, 3))) void doubt(std::string &doubts, const char *format, ...) {
-  char line[300];
-  va_list args;
-  va_start(args, format);
-  std::vsnprintf(line, sizeof line, format, args);
-  va_end(args);
-  if (!doubts.empty()) doubts += "; ";
-  doubts += line;
-}
+void doubt(std::string &doubts, const std::string &more) { doubts += (doubts.empty() ? "" : "; ") + more; }
 
 // The sphere whose ratio to the mean diameter differs most. A common factor is no difference: growth has one.
 void compare_diameters(const Packing &a, const Packing &b, std::string &doubts) {
@@ -71,11 +61,9 @@ void compare_diameters(const Packing &a, const Packing &b, std::string &doubts) 
     if (apart > most) most = apart, worst = i;
   }
   if (differ == 0) return;
-  doubt(
-      doubts,
-      "the diameters of %zu of %zu spheres differ by more than a common factor, most for sphere %zu with %.9g and %.9g "
-      "mean diameters: spheres of the same number were compared",
-      differ, a.n(), worst, a.diameter[worst] / mean_a, b.diameter[worst] / mean_b);
+  doubt(doubts, sentence("the diameters of %zu of %zu spheres differ by more than a common factor, most for sphere %zu "
+                         "with %.9g and %.9g mean diameters: spheres of the same number were compared",
+                         differ, a.n(), worst, a.diameter[worst] / mean_a, b.diameter[worst] / mean_b));
 }
 
 // All spheres when none is.
@@ -117,7 +105,8 @@ void compare_contacts(const ContactNetwork *na, const ContactNetwork *nb, Compar
   jam_comparison_report &found = c.numbers;
   found.contacts_a = na ? static_cast<int64_t>(na->size()) : -1;
   found.contacts_b = nb ? static_cast<int64_t>(nb->size()) : -1;
-  if (!na != !nb) doubt(c.doubts, "%s has no contact network: contacts were not compared", na ? "other" : "sys");
+  if (!na != !nb)
+    doubt(c.doubts, std::string(na ? "other" : "sys") + " has no contact network: contacts were not compared");
   if (!na || !nb) {
     found.common_contacts = -1;
     found.overlap = found.overlap_a = std::numeric_limits<double>::quiet_NaN();

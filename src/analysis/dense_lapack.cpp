@@ -4,7 +4,7 @@
 #include <algorithm>
 #include "analysis/modes.hpp"
 #include "core/error.hpp"
-#include "linalg/blas/single_thread.hpp"
+#include "linalg/blas.hpp"
 
 extern "C" {
 void dlatrd_(const char *uplo, const int *n, const int *nb, double *a, const int *lda, double *e, double *tau,

@@ -2,7 +2,7 @@
 #pragma once
 #include <limits>
 #include "capi/table.hpp"
-#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
 #include "verdict/text.hpp"
 
 namespace jam::inside {

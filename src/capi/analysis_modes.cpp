@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "analysis/bloch.hpp"
+#include "analysis/modes.hpp"
 #include "capi/analysis.hpp"
 #include "core/limits.hpp"
 

@@ -1,10 +1,54 @@
-// Header section "analysis": density of states, moduli, comparing packings.
+// Header section "analysis": the network from geometry, states of self-stress, density of states, moduli, comparing.
 #include <algorithm>
+
 #include "analysis/modes.hpp"
 #include "analysis/structure.hpp"
 #include "capi/analysis.hpp"
+#include "network/contacts_from_geometry.hpp"
 
 using namespace jam::inside;
+
+namespace {
+
+// Why the network of a geometry is not the only one, or not rigid.
+Answer answer_of(const GeometryResult &found, jam_status status, const PackingVerdict &as_it_is,
+                 const TestedPacking &tested, const jam_geometry_options &o) {
+  const jam_geometry_report &r = found.report;
+  const auto n = [](int64_t x) { return static_cast<long long>(x); };
+  if (status == JAM_NOT_JAMMED && r.contacts == 0)
+    return {JAM_NOT_JAMMED, sentence("no set of contacts with gaps up to %.2g carries balanced forces without friction "
+                                     "and weight: jam_contacts_by_distance takes pairs by their distance alone; "
+                                     "jam_crunch moves spheres until contacts balance",
+                                     o.tolerance > 0.0 ? o.tolerance : o.window)};
+  if (status == JAM_NOT_JAMMED)
+    return {JAM_NOT_JAMMED,
+            sentence("not collectively jammed even if these %lld contacts are closed: excess %lld, %lld zero "
+                     "modes including translations; jam_flex gives a motion",
+                     n(r.contacts), n(r.excess_contacts), n(r.zero_modes))};
+  if (status != JAM_AMBIGUOUS) return status;
+  std::string why;
+  const auto add = [&why](const std::string &reason) { why += (why.empty() ? "" : "; ") + reason; };
+  const bool clear = o.tolerance > 0.0 || (r.jump > 100.0 && r.jump > r.second_jump * r.second_jump);
+  if (!clear && r.second_contacts >= 0)
+    add(sentence("%lld contacts with gaps up to %.2g were taken, but %lld up to %.2g fit too: set tolerance to choose",
+                 n(r.contacts), r.tolerance, n(r.second_contacts), r.second_tolerance));
+  else if (!clear)
+    add(sentence("%lld contacts were taken, but beyond them gaps rise only by a factor of %.3g, from %.2g to %.2g",
+                 n(r.contacts), r.jump, r.gap_below, r.gap_above));
+  if (r.self_stresses > 1)
+    add(
+        sentence("%lld states of self-stress, so forces are not unique: their analytic centre was taken, where the "
+                 "product of the forces is largest",
+                 n(r.self_stresses)));
+  if (tested.overlapping && as_it_is.jammed == Verdict::undecided)
+    add(why_not_jammed(numbers_of(as_it_is, tested, Jamming::collective)));
+  else if (as_it_is.jammed != Verdict::yes)
+    add(sentence("contacts have gaps of up to %.1e, and open ones prove nothing: jam_crunch closes the gaps",
+                 r.gap_below));
+  return {JAM_AMBIGUOUS, why};
+}
+
+}  // namespace
 
 extern "C" {
 
@@ -92,6 +136,69 @@ jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_compa
     give_struct(c.numbers, comparison);
     if (c.doubts.empty()) return JAM_OK;
     return {JAM_AMBIGUOUS, c.doubts};
+  });
+}
+
+jam_status jam_geometry_options_init(jam_geometry_options *o, size_t size) {
+  return init_options(o, size, default_geometry_options());
+}
+
+jam_status jam_contacts_from_geometry(jam_system *sys, const jam_geometry_options *o, jam_geometry_report *report) {
+  return guard_cancellable(sys, [&]() -> Answer {
+    check_out_struct(report, "report");
+    jam_geometry_options full = default_geometry_options();
+    take_options(o, full);
+    const Packing &p = sys->packing;
+    GeometryResult result = contacts_from_geometry(p, full);
+    const TestedPacking tested = without_overlaps(p);
+    const PackingVerdict verdict = verdict_of(tested, &result.network, Jamming::collective);
+    jam_crunch_report r = network_certificate(p, result.network, verdict, sys->monitor);
+    r.status = status_of(result, verdict.jammed, gap_resolution(p), p);
+    const Answer answer = answer_of(result, r.status, verdict, tested, full);
+    sys->contacts = std::move(result.network);
+    sys->contact_gap = std::numeric_limits<double>::quiet_NaN();
+    sys->report = r;
+    sys->has_report = true;
+    give_struct(result.report, report);
+    return answer;
+  });
+}
+
+jam_status jam_contacts_by_distance(jam_system *sys, double gap) {
+  return guard_verb(sys, [&]() -> Answer {
+    sys->take_contacts_by_distance(contacts_by_distance(sys->packing, gap), gap);
+    if (empty_network(sys))
+      return {JAM_NOT_JAMMED, sentence("no pair of spheres, and no sphere and wall, has a gap below %g", gap)};
+    return JAM_OK;
+  });
+}
+
+jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, double *basis, size_t basis_len,
+                             double *residual, size_t *needed) {
+  return guard_cancellable(sys, [&]() -> Answer {
+    need_network(sys);
+    const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
+    check_output(force, force_len, g.contacts(), "force");
+    if (!basis && basis_len != 0) fail(JAM_E_NULL, "basis is NULL but its length is %zu", basis_len);
+    if (!needed && !force && !basis && !residual) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    const StressStates s = find_stress(g, basis != nullptr);
+    if (needed) *needed = static_cast<size_t>(s.dimension);
+    check_output(basis, basis_len, s.basis.size(), "basis");
+    put_output(s.force, force, s.force.size());
+    put_output(s.basis, basis, s.basis.size());
+    if (residual) *residual = s.residual;
+    const auto states = static_cast<long long>(s.dimension);
+    if (!s.positive)
+      return {JAM_NOT_JAMMED,
+              sentence("%lld states of self-stress, and no combination of them has forces of one sign on all contacts",
+                       states)};
+    if (states > 1)
+      return {
+          JAM_AMBIGUOUS,
+          sentence(
+              "%lld states of self-stress: force is their analytic centre, where the product of the forces is largest",
+              states)};
+    return JAM_OK;
   });
 }
 

@@ -1,7 +1,7 @@
 // Header section "jammed or not".
 #include <cstdio>
 
-#include "analysis/bloch.hpp"
+#include "analysis/modes.hpp"
 #include "capi/analysis.hpp"
 #include "capi/proof.hpp"
 #include "core/limits.hpp"

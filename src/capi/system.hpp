@@ -6,11 +6,9 @@
 #include <optional>
 #include <thread>
 
-#include "core/notes.hpp"
-#include "crunch/record.hpp"
+#include "crunch/crunch.hpp"
 #include "dynamics/isoconfigurational/isoconfigurational.hpp"
 #include "dynamics/observer.hpp"
-#include "network/contact_network.hpp"
 #include "soft/shear.hpp"
 
 namespace jam::inside {

@@ -4,11 +4,106 @@
 #include <functional>
 
 #include "core/notes.hpp"
-#include "crunch/record.hpp"
 #include "crunch/tuning.hpp"
+#include "lp/packing_lp.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {
+
+// The record of a crunch: what each step did, the rows behind jam_crunch_history; the details of the last step during a
+// callback; states that the page shows; and the stage at which another call continues.
+
+// On the barrier path multipliers are mu over gap, so mu alone brings them back. mu = 0: not on the path.
+struct PathPoint {
+  double mu = 0.0, first_mu = 0.0;
+};
+
+// Where a crunch stands between two steps. With the packing it is all that another call needs to continue.
+struct CrunchStage {
+  PathPoint path;
+  bool path_taken = false, cell_free = false;
+  uint8_t decompressions = 0;
+
+  std::string bytes() const;
+  static CrunchStage of(const std::string &bytes);  // throws JAM_E_FORMAT
+};
+
+// A state that the page shows behind its slider: few enough, and in floats, so that the file stays small.
+struct KeptStep {
+  int64_t step;                 // rows of the history before this state: 0 is the start
+  double diameter;              // of the first sphere; all grow by one factor
+  double fraction;              // packing fraction
+  Cell cell;                    // a free cell changes from step to step
+  std::vector<float> position;  // (n, dim)
+};
+
+class KeptSteps {
+ public:
+  // most: states to keep, the start with them; 0: none. Large packings keep fewer.
+  void begin(const Packing &start, int64_t most);
+  // After each step. Where there is no more room every other state goes.
+  void add(const Packing &now, int64_t step);
+  std::vector<KeptStep> all() && { return std::move(kept_); }
+
+ private:
+  int64_t most_ = 0, every_ = 1;
+  std::vector<KeptStep> kept_;
+};
+
+constexpr size_t history_columns = JAM_HISTORY_TOTAL_MSD_STABLE + 1;
+using HistoryRow = std::array<double, history_columns>;  // by jam_history_column
+
+// Details of one step, kept only on request: they cost as much memory as the LP.
+struct CrunchStep {
+  bool shown = false;                // a callback runs and may read them
+  std::vector<double> displacement;  // (n, dim), unit of box, images followed
+  std::vector<int32_t> pair;         // (m, 2) rows of the LP that carry force; empty for other steps
+  std::vector<double> vector;        // (m, dim) r_ij before the step, unit of box
+  std::vector<double> multiplier;    // m: lambda_ij, sum lambda sigma_ij^2 = 1
+};
+
+class History {
+ public:
+  // From here on displacements count. details: fill step() too. keep: states to keep at most.
+  void begin(const Packing &start, bool details, int64_t keep = 0);
+  // A row for the move from the packing of the last call to `now`. displacement, unit of box, may be NULL when no
+  // sphere moved by half a box: then nearest images give it. seconds, factorisations: totals so far. Unknown columns
+  // are NaN.
+  HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
+                    const double *displacement = nullptr);
+  // Mean squares of the last row over stable spheres alone: those with a contact.
+  void over_stable(const std::vector<int32_t> &coordination, int dim, double unit);
+  // From begin() to `now`, over the mean diameter, without the mean displacement: the largest, and the root of the mean
+  // square; with `coordination` of the spheres that have contacts.
+  void displaced(const Packing &now, const std::vector<int32_t> *coordination, double &largest, double &rms) const;
+  // The packing at the last row: valid also while a step is being made.
+  const Packing &reached() const { return reached_; }
+  // Where a crunch continues from there.
+  CrunchStage stage;
+  // Did any sphere move, or grow, since the last row?
+  bool behind(const Packing &now) const {
+    return now.position != reached_.position || now.diameter.front() != reached_.diameter.front();
+  }
+  // The linear network of an LP before its step is made.
+  void take_network(const Packing &p, const PackingLp &lp, const LpSolution &answer);
+
+  bool details() const { return details_; }
+  CrunchStep &step() { return step_; }
+  const CrunchStep &step() const { return step_; }
+  const std::vector<HistoryRow> &rows() const & { return rows_; }
+  std::vector<HistoryRow> rows() && { return std::move(rows_); }
+  std::vector<KeptStep> kept() && { return std::move(kept_).all(); }
+
+ private:
+  bool details_ = false;
+  std::vector<HistoryRow> rows_;
+  KeptSteps kept_;
+  Packing reached_;
+  std::vector<double> total_, last_;  // moved since begin(); moved in the last row
+  double seconds_ = 0.0;
+  int factorisations_ = 0;
+  CrunchStep step_;
+};
 
 // Options of jam_crunch: defaults and what is refused.
 jam_crunch_options default_crunch_options();

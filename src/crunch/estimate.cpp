@@ -7,7 +7,6 @@
 #include "core/pair_rule.hpp"
 #include "core/size_laws.hpp"
 #include "crunch/approach/lp_step.hpp"
-#include "crunch/crunch.hpp"
 #include "crunch/path/barrier_path.hpp"
 #include "crunch/phases.hpp"
 #include "linalg/blas.hpp"

@@ -1,4 +1,4 @@
-#include "crunch/record.hpp"
+#include "crunch/crunch.hpp"
 
 #include <algorithm>
 #include <cmath>

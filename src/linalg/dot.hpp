@@ -7,9 +7,10 @@
 
 namespace jam::inside {
 
-inline double dot(const std::vector<double> &x, const std::vector<double> &y) {
-  return std::inner_product(x.begin(), x.end(), y.begin(), 0.0);
+inline double dot(const std::vector<double> &x, const double *y) {
+  return std::inner_product(x.begin(), x.end(), y, 0.0);
 }
+inline double dot(const std::vector<double> &x, const std::vector<double> &y) { return dot(x, y.data()); }
 inline double norm(const std::vector<double> &x) { return std::sqrt(dot(x, x)); }
 // Largest |x_k|.
 inline double largest_entry(const std::vector<double> &x) {

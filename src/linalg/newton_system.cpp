@@ -3,12 +3,11 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "core/call_scope.hpp"
 #include "core/with_dimension.hpp"
+#include "linalg/block_matrix.hpp"
 #include "linalg/dot.hpp"
-#include "linalg/pair_products.hpp"
 
 namespace jam::inside {
 namespace {
@@ -16,8 +15,6 @@ namespace {
 void add(double factor, const std::vector<double> &x, double *y) {
   for (size_t k = 0; k < x.size(); ++k) y[k] += factor * x[k];
 }
-
-double dot(const std::vector<double> &x, const double *y) { return std::inner_product(x.begin(), x.end(), y, 0.0); }
 
 }  // namespace
 

@@ -15,7 +15,7 @@
 
 #include "core/monitor.hpp"
 #include "core/pairs.hpp"
-#include "linalg/pair_products.hpp"
+#include "linalg/block_matrix.hpp"
 #include "lp/tuning.hpp"
 
 namespace jam::inside {

@@ -7,7 +7,6 @@
 
 #include "core/call_scope.hpp"
 #include "linalg/dot.hpp"
-#include "network/hessian.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {

@@ -4,7 +4,7 @@
 #include "core/cell_change.hpp"
 #include "linalg/symmetric_eigen.hpp"
 #include "network/flex.hpp"
-#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
 #include "network/stress_cone.hpp"
 #include "network/tuning.hpp"
 

@@ -1,4 +1,4 @@
-#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,6 @@
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
 #include "linalg/dot.hpp"
-#include "linalg/pair_products.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {

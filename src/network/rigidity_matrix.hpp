@@ -1,6 +1,7 @@
 // The rigidity matrix S of a contact network: one row a contact, d columns a force-carrying sphere. Row k holds n_ij on
 // sphere i and -n_ij on sphere j. A wall does not move: its row holds n_ij on sphere i alone.
 #pragma once
+#include "linalg/block_matrix.hpp"
 #include "network/contact_network.hpp"
 
 namespace jam::inside {
@@ -60,5 +61,31 @@ void apply_equilibrium(const RigidityMatrix &g, const double *f, double *y);
 double balance_residual(const RigidityMatrix &g, const double *f);
 // The same with the forces and vectors of a network of n spheres.
 double balance_residual(int dim, size_t n, const ContactNetwork &network);
+
+// Hessians of a contact network: S~^T S~ with a stiffness per contact, and the pre-stress part.
+
+jam_hessian_options default_hessian_options();
+// Throws JAM_E_ARGUMENT for values out of range.
+void check_hessian_options(const jam_hessian_options &o);
+bool needs_forces(const jam_hessian_options &o);
+
+// Stiffness of every contact (1 at the mean force), and the transverse term t = prestress f <sigma> / (r (alpha - 1)).
+struct ContactWeights {
+  std::vector<double> stiffness;
+  std::vector<double> transverse;  // empty without pre-stress
+};
+ContactWeights contact_weights(const RigidityMatrix &g, double sigma_mean, const jam_hessian_options &o);
+// Block of one contact: k n n^T - t (P - m m^T), see Turning.
+inline void contact_block(int dim, double k, double t, const double *n, Turning turning, double *block) {
+  const double both = k + turning.lean * turning.lean * t;
+  for (int r = 0; r < dim; ++r)
+    for (int c = 0; c < dim; ++c) {
+      const bool turns = turning.along(r) && turning.along(c);
+      block[r * dim + c] = (turns ? both : k) * n[r] * n[c] - (turns && r == c ? t : 0.0);
+    }
+}
+BlockMatrix make_hessian(const RigidityMatrix &g, const ContactWeights &w);
+// u . H . u as a sum over contacts: no cancellation between large entries, so small eigenvalues keep their digits.
+double curvature(const RigidityMatrix &g, const ContactWeights &w, const double *u);
 
 }  // namespace jam::inside

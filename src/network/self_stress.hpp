@@ -1,7 +1,7 @@
 // States of self-stress from positions alone: the null space of S^T, without a dense matrix.
 #pragma once
 #include "linalg/block_cholesky.hpp"
-#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
 
 namespace jam::inside {
 

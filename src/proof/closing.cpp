@@ -1,5 +1,3 @@
-#include "proof/closing.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>

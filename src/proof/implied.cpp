@@ -1,4 +1,4 @@
-#include "proof/closing.hpp"
+#include "proof/newton.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,6 @@
 #include "core/call_scope.hpp"
 #include "linalg/dot.hpp"
 #include "network/resolution.hpp"
-#include "proof/closing.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam::inside {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/cell_change.hpp"
-#include "proof/closing.hpp"
+#include "proof/newton.hpp"
 
 namespace jam::inside {
 

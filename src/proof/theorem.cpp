@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "proof/closing.hpp"
 #include "proof/expansion.hpp"
 #include "proof/newton.hpp"
 #include "proof/tuning.hpp"

@@ -1,5 +1,4 @@
-// See goal.hpp.
-#include "radii/goal.hpp"
+#include "radii/rows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
-#include "linalg/pair_products.hpp"
+#include "linalg/block_matrix.hpp"
 #include "radii/tuning.hpp"
 
 namespace jam::inside {

@@ -3,7 +3,6 @@
 #pragma once
 #include "core/monitor.hpp"
 #include "core/notes.hpp"
-#include "radii/goal.hpp"
 #include "radii/rows.hpp"
 
 namespace jam::inside {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {

@@ -184,7 +184,7 @@ struct RuleOf {
 // Tries those of the table between two rules, these included, in order.
 void try_rules(JammingCase &c, Rule first, Rule last);
 
-// by_proof.cpp. A yes that rests on weak forces, of more contacts than one state of self-stress has: doubles cannot
+// A yes that rests on weak forces, of more contacts than one state of self-stress has: doubles cannot
 // distinguish such forces from gaps. Where contacts do not all close, the network of those that close together, and
 // hold their spheres, takes its place. Where they do not hold them, or exchanges come to no end, nothing is decided: a
 // saddle, as far as two doubles show.

@@ -49,7 +49,7 @@ GUESTS = {
 }
 # Layers whose steering numbers all stand in their tuning.hpp, and files of them whose numbers are physics.
 TUNED = {
-    "core": ["double_double.hpp", "limits.hpp", "math.cpp", "math.hpp", "math_normal.cpp", "packing.cpp", "pair_energy.hpp", "size_laws.cpp",
+    "core": ["cell.cpp", "double_double.hpp", "limits.hpp", "math.cpp", "math.hpp", "math_normal.cpp", "pair_energy.hpp", "size_laws.cpp",
              "size_report.cpp"],
     "network": ["resolution.hpp"],
     "verdict": [],

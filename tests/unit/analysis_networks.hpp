@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 #include "network/contact_network.hpp"
-#include "network/hessian.hpp"
+#include "network/rigidity_matrix.hpp"
 
 namespace jamtest {
 

@@ -8,7 +8,6 @@
 
 #include "linalg/block_cholesky.hpp"
 #include "lp/packing_lp.hpp"
-#include "proof/closing.hpp"
 #include "proof/expansion.hpp"
 #include "proof/newton.hpp"
 // test.h comes last: it has a macro `fail`.

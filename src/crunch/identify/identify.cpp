@@ -6,9 +6,126 @@
 #include "crunch/approach/lp_step.hpp"
 #include "crunch/phases.hpp"
 #include "linalg/dot.hpp"
+#include "network/force_balance.hpp"
+#include "network/rigidity_matrix.hpp"
+#include "network/stress_cone.hpp"
+#include "network/tuning.hpp"
 
 namespace jam::inside {
 namespace {
+
+class Polish {
+ public:
+  Polish(NewtonSystem &system, int threads, const Tuning &tuning, double allowed_overlap, Monitor *monitor)
+      : system_(system), threads_(threads), t_(tuning), allowed_(allowed_overlap), monitor_(monitor) {}
+
+  // A contact too many can be a gap that the LP could not distinguish from a force. Then the rest closes without it.
+  PolishEnd close_and_balance(Packing &p, ContactNetwork &net) {
+    PolishEnd end = try_contacts(p, net);
+    while (drops_gap(p, net, end)) end = try_contacts(p, net);
+    return end;
+  }
+
+ private:
+  PolishEnd try_contacts(Packing &p, ContactNetwork &net) {
+    if (!close_all(p, net)) return PolishEnd::interrupted;
+    if (!(largest_entry(net.gap) < t_.closing_gap)) return PolishEnd::open_contact;
+    const bool round = p.container.curved() != 0;
+    if (net.size() == 0 || (!round && excess_contacts(net, p) < 0)) return PolishEnd::too_few;
+    balance_forces(p, net);
+    if (round && !(balance_residual(p.dim, p.n(), net) < RigidityTuning::most_residual) &&
+        !converge_at_curved_maximum(p, net))
+      return PolishEnd::too_few;
+    const bool one_state = excess_contacts(net, p) <= 0;
+    // Forces of several states of self-stress are not unique: the test of the network decides which contacts carry.
+    if (one_state && !pushes_only(net)) {
+      log("polish: %td of %zu contacts pull, the strongest with %.1e",
+          std::count_if(net.force.begin(), net.force.end(), [](double f) { return !(f > 0.0); }), net.size(),
+          -*std::min_element(net.force.begin(), net.force.end()));
+      return PolishEnd::negative_force;
+    }
+    if (closest_contact(p).gap < allowed_) return PolishEnd::overlap;
+    return largest_entry(net.gap) > t_.closed_limit(p) ? PolishEnd::open_contact : PolishEnd::done;
+  }
+
+  // Contacts that do not close together leave gaps r that are orthogonal to all motions, and so balance. Forces f - t r
+  // balance too, for any t. The contact whose force vanishes first, at t > 0, has its gap open once the rest closes:
+  // this is the exchange of a dual simplex method. False where there is none to drop, and in crystals, where gaps of
+  // many contacts too many say little.
+  bool drops_gap(const Packing &p, ContactNetwork &net, PolishEnd end) const {
+    if (end != PolishEnd::open_contact && end != PolishEnd::overlap) return false;
+    const bool open =
+        largest_entry(net.gap) > t_.closed_limit(p) || *std::min_element(net.gap.begin(), net.gap.end()) < allowed_;
+    const int64_t excess = excess_contacts(net, p);
+    if (!open || excess <= 0 || excess > t_.max_excess || !pushes_only(net)) return false;
+    size_t weakest = net.size();
+    double part = 0.0;
+    for (size_t k = 0; k < net.size(); ++k)
+      if (net.gap[k] > 0.0 && (weakest == net.size() || net.force[k] < part * net.gap[k]))
+        weakest = k, part = net.force[k] / net.gap[k];
+    if (weakest == net.size()) return false;
+    log("polish: contact of %d and %d does not close, with a force of %.1e and a gap of %.1e", net.pairs.i[weakest],
+        net.pairs.j[weakest], net.force[weakest], net.gap[weakest]);
+    for (size_t k = 0; k < net.size(); ++k) net.force[k] -= part * net.gap[k];
+    std::vector<char> on(net.size(), 1);
+    on[weakest] = 0;
+    net = subset(net, on, p.dim);
+    return true;
+  }
+
+  template <class... T>
+  void log(const char *format, T... values) const {
+    if (monitor_) monitor_->log(JAM_LOG_DEBUG, format, values...);
+  }
+
+  // One Gauss-Newton step of all gaps to zero over positions and the common factor of the diameters. With a single
+  // state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
+  void close_once(Packing &p, ContactNetwork &net) {
+    const std::vector<double> a = relative_rows(p, net);
+    GapRows rows(net, p.dim, a, unit_ground, system_);
+    if (!rows.factorise()) return;
+    std::vector<double> wanted(net.gap), got;
+    for (double &h : wanted) h = -h;
+    const Motion motion = rows.towards(wanted, got);
+    move_packing(p, net.pairs, motion.s.data(), diameter_mean(p), 1.0 + motion.g);
+    measure_contacts(p, net);
+  }
+
+  // False when interrupted.
+  bool close_all(Packing &p, ContactNetwork &net) {
+    system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
+    const auto open = [&] { return excess_contacts(net, p) > 0 ? norm(net.gap) : largest_entry(net.gap); };
+    double worst = open();
+    for (int round = 0; round < Tuning::polish_steps && worst > Tuning::polish_end; ++round) {
+      log("polish %d largest gap %.2e", round, largest_entry(net.gap));
+      if (monitor_ && monitor_->interrupted()) return false;
+      Packing p_old = p;
+      ContactNetwork old = net;
+      close_once(p, net);
+      const double now = open();
+      if (!(now < Tuning::polish_progress * worst)) {  // rounding, or the contacts cannot all close
+        if (!(now < worst)) p = std::move(p_old), net = std::move(old);
+        break;
+      }
+      worst = now;
+    }
+    return !(monitor_ && monitor_->interrupted());
+  }
+
+  // The nearest forces that balance on every sphere, in units of their mean.
+  void balance_forces(const Packing &p, ContactNetwork &net) {
+    GapRows rows(net, p.dim, net.vector, unit_ground, system_);
+    if (!rows.factorise()) return;
+    rows.balance(net.force);
+    scale_to_mean(net);
+  }
+
+  NewtonSystem &system_;
+  const int threads_;
+  const Tuning &t_;
+  const double allowed_;
+  Monitor *monitor_;
+};
 
 // A free cell changes its shape too: a lattice of one sphere has nothing else that could leave its saddle. Lengths
 // change by less than the share, and the volume stays.
@@ -112,6 +229,22 @@ bool recompress(CrunchState &s) {
   s.last.active = ActiveSet();
   restart_lps(s, first_bound(p, s.o, s.tuning));
   return true;
+}
+
+PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int threads, const Tuning &tuning,
+                 Monitor *monitor) {
+  if (net.size() == 0) return PolishEnd::no_contacts;
+  Polish polisher(system, threads, tuning, std::min(-tuning.rounded_overlap(p), closest_contact(p).gap), monitor);
+  Packing q = p;
+  ContactNetwork better = net;
+  const PolishEnd end = polisher.close_and_balance(q, better);
+  if (end != PolishEnd::done) return end;
+  if (monitor && largest_entry(better.gap) > tuning.closed_limit(q))
+    monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(),
+                 largest_entry(better.gap));
+  p = std::move(q);
+  net = std::move(better);
+  return PolishEnd::done;
 }
 
 }  // namespace jam::inside

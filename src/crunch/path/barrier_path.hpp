@@ -3,8 +3,7 @@
 // multipliers stay. Every step is safe because the linearised set lies inside the true one. The barrier is the entropy
 // of cell theory: this is a slower quench than sequential LPs and may end at another jamming point.
 #pragma once
-#include "crunch/record.hpp"
-#include "crunch/tuning.hpp"
+#include "crunch/crunch.hpp"
 #include "linalg/newton_system.hpp"
 
 namespace jam::inside {

@@ -1,8 +1,6 @@
 // The routines of blas.hpp by a BLAS library with Fortran's interface: OpenBLAS, or any other (JAM_BLAS).
 #include "linalg/blas.hpp"
 
-#include "linalg/blas/single_thread.hpp"
-
 extern "C" {
 void dtrsm_(const char *side, const char *uplo, const char *trans, const char *diag, const int *m, const int *n,
             const double *alpha, const double *a, const int *lda, double *b, const int *ldb);

@@ -1,12 +1,11 @@
 // One thread for OpenBLAS, and memory for its buffers.
-#include "linalg/blas/single_thread.hpp"
+#include "linalg/blas.hpp"
 
 #include <dlfcn.h>
 #include <sys/mman.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <memory>
 #include <mutex>
 #include <new>
 #include <string>

@@ -31,8 +31,8 @@ cd "$root"
 . tests/debian.sh
 . tests/sanitized.sh
 parts=${*:-release kernels alone sanitizers threads fuzz}
-need_packages build-essential cmake ninja-build pkg-config libeigen3-dev coinor-libclp-dev libspectra-dev zlib1g-dev \
-  libcmocka-dev
+need_packages build-essential cmake ninja-build pkg-config python3 libeigen3-dev coinor-libclp-dev libspectra-dev \
+  zlib1g-dev libcmocka-dev
 if [ "$parts" != quick ]; then
   need_packages clang clang-format libopenblas-dev voro++-dev swig gfortran lintian debhelper dh-python \
     python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib python3-h5py python3-pandas python3-tqdm \

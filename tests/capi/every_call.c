@@ -1,6 +1,6 @@
 /* Every call of the table tests/calls.def: without a handle, without what it needs, and as a user calls it. */
 #include "calls.h"
-#include "test.h"
+#include "systems.h"
 
 static void text_is_there(const char *name, jam_status status) {
   if (status != JAM_OK && jam_last_error()[0] == '\0') fail_msg("%s: status %d without a text", name, status);
@@ -17,28 +17,20 @@ CASE(a_null_handle_is_refused) {
 
 /* A network, a minimum, observations, runs, a step: without them JAM_E_STATE, and nothing moves. */
 CASE(what_is_missing_is_reported) {
-  jam_system *fluid = system_for(ANY);
-  const double *x;
-  double before[24];
-  size_t length;
-  assert_non_null(fluid);
-  assert_int_equal(jam_view(fluid, JAM_VIEW_POSITIONS, &x, &length), JAM_OK);
-  assert_int_equal(length, 24);
-  memcpy(before, x, sizeof before);
+  OWNED jam_system *fluid = system_for(ANY), *before = copy_of(fluid);
   for (int k = 0; k < CALLS; ++k) {
     if (every_call[k].start < NETWORK) continue;
     jam_set_error(NULL);
     jam_status status = every_call[k].call(NULL, fluid);
     if (status != JAM_E_STATE) fail_msg("%s gives %d: %s", every_call[k].name, status, jam_last_error());
     text_is_there(every_call[k].name, status);
-    assert_memory_equal(before, x, sizeof before);
+    same_view(fluid, before, JAM_VIEW_POSITIONS);
   }
-  jam_destroy(fluid);
 }
 
 /* A network without contacts is one, too: the packing is not jammed, and what asks for a contact is refused. */
 CASE(an_empty_network_is_answered) {
-  jam_system *fluid = system_for(ANY);
+  OWNED jam_system *fluid = system_for(ANY);
   size_t m;
   assert_int_equal(jam_contacts_from_geometry(fluid, NULL, NULL), JAM_NOT_JAMMED);
   for (int k = 0; k < CALLS; ++k) {
@@ -50,20 +42,18 @@ CASE(an_empty_network_is_answered) {
   }
   assert_int_equal(jam_hessian_map(fluid, NULL, 0, &m), JAM_OK);
   assert_int_equal(m, 0);
-  jam_destroy(fluid);
 }
 
 /* With what it needs no call fails, but for what belongs into a callback. */
 CASE(every_call_does_its_work) {
   for (int k = 0; k < CALLS; ++k) {
-    jam_system *sys = system_for(every_call[k].start);
+    OWNED jam_system *sys = system_for(every_call[k].start);
     if (every_call[k].start != NONE && !sys) fail_msg("%s: no system: %s", every_call[k].name, jam_last_error());
     jam_set_error(NULL);
     jam_status status = every_call[k].call(NULL, sys);
     if (every_call[k].start == STEP ? status != JAM_E_STATE : status < 0)
       fail_msg("%s gives %d: %s", every_call[k].name, status, jam_last_error());
     text_is_there(every_call[k].name, status);
-    jam_destroy(sys);
   }
   remove(call_file()), remove(call_image());
 }

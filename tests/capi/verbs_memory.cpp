@@ -152,13 +152,6 @@ jam_status relax(jam_system *sys) {
   }
   return JAM_OK;
 }
-jam_status rigidity(jam_system *sys) {
-  for (const int32_t kind : {JAM_RIGIDITY_COLLECTIVE, JAM_RIGIDITY_STRICT}) {
-    const jam_status status = jam_rigidity(sys, kind, nullptr);
-    if (status < 0) return status;
-  }
-  return JAM_OK;
-}
 jam_status modes(jam_system *sys) {
   static double table[2000];
   size_t rows = 0;
@@ -181,7 +174,6 @@ CASE(every_allocation) {
                         {"isoconfigurational", fluid, isoconfigurational},
                         {"crunch by LPs, with steps", spheres, crunch_by_lps},
                         {"relax", soft, relax},
-                        {"rigidity", jammed, rigidity},
                         {"modes", jammed, modes}};
   for (const Case &c : cases)
     for (const bool single : {false, true}) fail_each(c, single);

@@ -100,8 +100,7 @@ static jam_status start_with(int32_t dim, const double *cell, int32_t container,
   o.dim = dim, o.n = 10, o.packing_fraction = 0.1, o.model = model, o.non_additivity = delta;
   if (cell) start.cell = cell, start.cell_len = (size_t)(dim * dim);
   o.container = container, o.walls = walls;
-  const jam_status status = jam_create(&o, &start, &sys);
-  return status;
+  return jam_create(&o, &start, &sys);
 }
 
 CASE(bad_containers_are_named) {
@@ -128,20 +127,18 @@ CASE(files_keep_the_container) {
   const char *const path = in_scratch("walls");
   const int formats[] = {JAM_FORMAT_XYZ, JAM_FORMAT_LAMMPS};
   for (int k = 0; k < WALLED; ++k) {
-    jam_system *sys = NULL, *back = NULL;
-    jam_info a = {.struct_size = sizeof a}, b = a;
+    OWNED jam_system *sys = NULL;
     assert_int_equal(create_walled(&walled_scenes[k], 30, 0.1, 3, NULL, &sys), JAM_OK);
     for (int f = 0; f < 2; ++f) {
+      OWNED jam_system *back = NULL;
       assert_int_equal(jam_write(sys, path, formats[f]), JAM_OK);
       assert_int_equal(jam_read(path, NULL, NULL, NULL, &back), JAM_OK);
-      jam_get_info(sys, &a), jam_get_info(back, &b);
+      const jam_info a = info_of(sys), b = info_of(back);
       assert_true(a.container == b.container && a.walls == b.walls && a.volume == b.volume);
       same_view(sys, back, JAM_VIEW_POSITIONS), same_view(sys, back, JAM_VIEW_DIAMETERS);
-      jam_destroy(back);
     }
     SAYS(jam_write(sys, path, JAM_FORMAT_PLAIN), JAM_E_UNSUPPORTED, "cannot store walls");
     assert_int_equal(jam_write(sys, path, JAM_FORMAT_VTP), JAM_OK);
-    jam_destroy(sys);
   }
 }
 

@@ -142,12 +142,12 @@ static inline int dimension_of(const jam_system *sys) {
 }
 
 /* Puts a matrix with these numbers on its diagonal and at one other place into real[0]; its length. */
-static inline size_t matrix_of(CALL_INPUT *in, const jam_system *sys, double diagonal, int place, double other_number) {
+static inline size_t matrix_of(CALL_INPUT *in, const jam_system *sys, double diagonal, int place, double elsewhere) {
   const int d = dimension_of(sys);
   int k;
   memset(real[0], 0, sizeof *real[0] * 64);
   for (k = 0; k < d; ++k) real[0][k * (d + 1)] = NUMBER(diagonal);
-  if (d > 1) real[0][place] = NUMBER(other_number);
+  if (d > 1) real[0][place] = NUMBER(elsewhere);
   (void)in;
   return (size_t)(d * d);
 }

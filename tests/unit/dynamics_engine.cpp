@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "dynamics/event_driven/engine.hpp"
+#include "dynamics/event_driven/kernel/pair_kernel.hpp"
 #include "dynamics/event_driven/run.hpp"
 #include "naive_dynamics.hpp"
 

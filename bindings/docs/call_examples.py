@@ -18,8 +18,8 @@ STARTS = {
 }
 #: What calls.h does by functions of its own, and the declarations that it needs here.
 WORDS = {
-    "read_back(in, sys)": 'jam_read(call_file(), create_options(in), NULL, NULL, &other)',
-    "read_as_back(in, sys)": 'jam_read_as(call_file(), "cell=1,1", create_options(in), NULL, NULL, &other)',
+    "read_back(in, sys, NULL)": 'jam_read(call_file(), create_options(in), NULL, NULL, &other)',
+    'read_back(in, sys, "")': 'jam_read_as(call_file(), "cell=1,1", create_options(in), NULL, NULL, &other)',
     "checkpoint_back(sys)": "jam_read_checkpoint(call_file(), NULL, NULL, &other)",
     "cancelled(sys)": "jam_cancel(sys)",
     "monte_carlo_options(in, 2.0)": "monte_carlo_options(in)",
@@ -30,8 +30,8 @@ WORDS = {
     "LARGE_ZERO": "first_contact",
 }
 DECLARED = {
-    "real[0], cell_of(in, sys)": ("cell, 4", "const double cell[4] = {1, 0, 7, 1}; /* d = 2 */"),
-    "real[0], strain_of(in, sys)": ("strain, 4", "const double strain[4] = {0.3, 0.1, 0, 0.3}; /* d = 2 */"),
+    "real[0], matrix_of(in, sys, 1.0, dimension_of(sys), 7.0)": ("cell, 4", "const double cell[4] = {1, 0, 7, 1}; /* d = 2 */"),
+    "real[0], matrix_of(in, sys, 0.3, 1, 0.1)": ("strain, 4", "const double strain[4] = {0.3, 0.1, 0, 0.3}; /* d = 2 */"),
     "real[0], wave_of(in, sys)": ("wave, 2", "const double wave[2] = {0.3, 0.3}; /* d = 2 */"),
     "whole[0], copies_of(in, sys)": ("copies, 2", "const int32_t copies[2] = {1, 2}; /* d = 2 */"),
     "real[0], numbers_of(in, sys, JAM_VIEW_POSITIONS)": ("x, 24", "double x[24]; /* of 12 disks */"),

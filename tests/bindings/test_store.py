@@ -287,6 +287,14 @@ class PlainHdf5(Case):
             along = (apart * file["jam/contacts/vectors"][()]).sum(1)
             np.testing.assert_allclose(along, np.linalg.norm(apart, axis=1))  # the sign is what the text says
 
+    def test_h5md_asks_for_step_and_time_of_each_element(self):
+        many = self.folder / "many.h5"
+        self.assertEqual(jam.store.write_shard(many, "", {"a": self.path, "b": self.path}), [])
+        for path, groups in ((self.path, [""]), (many, ["a/", "b/"])):
+            with h5py.File(path, "r") as file:
+                for element in (f"{group}particles/spheres/{name}" for group in groups for name in ("position", "box/edges")):
+                    self.assertEqual((len(file[element]["step"]), len(file[element]["time"])), (1, 1), element)
+
 
 class Parts(InFolder):
     def test_what_a_killed_writer_left_goes_and_nothing_else(self):

@@ -38,6 +38,11 @@ class Cells(InFolder):
             s.strain(np.zeros((dim, dim)))
         self.assertGreater(made, 20)
 
+    def test_a_cell_that_is_turned_is_noted(self):
+        s = jam.System.random(n=4, dim=2, seed=1, cell=[[0, 2], [-1, 0]], packing_fraction=0.05)
+        self.assertEqual(s.notes, "the cell was rotated: its vectors are lower-triangular now")
+        np.testing.assert_allclose(s.cell, [[2, 0], [0, 1]], atol=1e-15)
+
     def test_growth_to_an_own_image_is_read(self):
         for seed in range(1, 5):
             s = jam.System.random(diameters=[1, 20, 2, 60, 4, 100.0], seed=seed)

@@ -16,7 +16,7 @@ import numpy as np
 import jam
 from jam import CheckReason, Verdict
 from jamming_oracle import judge
-from packings import fluid, packing, state
+from packings import cubic, fluid, packing, state
 
 PACK = os.environ.get("JAM_PACK")
 
@@ -51,6 +51,14 @@ class AsItIs(unittest.TestCase):
         r = self.expect(loose, Verdict.NO, Verdict.NO)
         self.assertEqual((r.reason, r.stationary), (CheckReason.NO_FORCE, Verdict.NO))
         self.assertGreater(r.closed_pairs, 100)
+
+    def test_rows_that_slide_are_a_saddle(self):
+        """Each of the d m^(d - 1) rows of a cubic lattice moves by itself; d of these motions are translations."""
+        for dim, m, flexes in ((2, 6, 10), (3, 3, 24)):
+            x, cell = cubic(m, dim)
+            r = self.expect(jam.System.from_arrays(x, 1.0, cell=cell), Verdict.NO, Verdict.NO, reach=1)
+            self.assertEqual((r.reason, r.flexes), (CheckReason.FLEX, flexes))
+            self.assertIn(f"{flexes} independent motions keep all contacts closed: a saddle", str(r))
 
     def test_strictly_jammed_packings_are_counted_by_their_own_number(self):
         """d (N' - 1) + d (d + 1) / 2 contacts: a cell that deforms has as many more unknowns as traceless strains."""

@@ -64,6 +64,16 @@ class Files(InFolder):
         np.testing.assert_allclose(made["spectrum"]["omega"] ** 2, modes.values, atol=1e-12)
         self.assertAlmostEqual(modes.values.sum(), 2 * len(contacts), 8)  # each contact adds 1 to each of its spheres
 
+    def test_densities_that_are_lost_are_noted(self):
+        """libjam has equal masses, or masses as the volumes."""
+        path = self.folder / "a.data"
+        self.s.write(path)
+        self.assertNotIn("densities", jam.System.read(path).notes)
+        head, rows = path.read_text().split("Atoms # sphere\n\n")
+        words = rows.split(" ", 4)
+        path.write_text(f"{head}Atoms # sphere\n\n{' '.join([*words[:3], '2.5', words[4]])}")
+        self.assertIn("the densities of the atoms were not read: masses are equal", jam.System.read(path).notes)
+
     def test_nothing_is_left_when_writing_fails(self):
         before = sorted(os.listdir(self.folder))
         with self.assertRaises(jam.errors.StateError):

@@ -298,7 +298,9 @@ class Ase(Folder):
 
     def test_notes(self):
         x = [[[0.1, 0.2, 0.5], [1.6, 0.7, 0.5]]]
-        path = self.file("a.xyz", frames=x * 2, cell=np.diag([1.0, 1.0, 5.0]))
+        path = self.file("a.xyz", frames=[[[0.3, 0.2, 0.5], [1.6, 0.7, 0.5]], *x], cell=np.diag([1.0, 1.0, 5.0]))
+        for frame, place in ((0, 0.3), (1, 0.1), (-2, 0.3)):
+            self.assertAlmostEqual(jam.files.read_ase(path, dim=2, frame=frame).positions[0, 0], place, 12)
         notes = jam.files.read_ase(path, dim=2).notes.splitlines()
         self.assertEqual(
             notes,

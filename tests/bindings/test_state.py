@@ -49,6 +49,11 @@ class Making(unittest.TestCase):
             s.positions = s.positions.T
         with self.assertRaises(ValueError):
             s.velocities = np.zeros((9, 3))
+        for given in (np.zeros(30, np.float32), np.zeros(60)[::2], "text", 3):  # C would read other numbers
+            with self.assertRaises((TypeError, BufferError, ValueError)):
+                jam.raw.jam_set_velocities(s.handle, given)
+        with self.assertRaises(BufferError):  # nor may C write here
+            jam.raw.jam_coordination(s.handle, b"read-only")
 
     def test_texts_reach_c_as_they_are(self):
         """Names that are not UTF-8 come from the system with lone surrogates."""
@@ -198,6 +203,16 @@ class Copies(unittest.TestCase):
             amid = jam.System.random(n=100, dim=3, seed=1)
             amid.crunch(checkpoint=file, progress=lambda p: True)
             self.assertEqual(jam.System.from_checkpoint(file).packing_fraction, amid.packing_fraction)
+
+    def test_a_crunch_at_a_duality_gap_goes_on_from_its_checkpoint(self):
+        a = jam.System.random(n=100, dim=3, seed=2)
+        a.compress(growth_rate=1e-2, pressure=1e4)
+        with tempfile.TemporaryDirectory() as folder:
+            report = a.crunch(duality_gap=1e-7, checkpoint=folder + "/c")
+            rest = jam.System.from_checkpoint(folder + "/c").crunch()
+        self.assertEqual((report.status.name, report.stop_reason.name, report.jammed), ("OK", "DUALITY_GAP", False))
+        self.assertTrue(rest.jammed)
+        self.assertGreater(rest.packing_fraction, report.packing_fraction)
 
 
 class Importing(unittest.TestCase):

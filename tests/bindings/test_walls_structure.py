@@ -47,6 +47,11 @@ class PairCorrelation(unittest.TestCase):
         s = start("slit", n, 5, packing_fraction=0.3, overlap="allow", diameters=0.8 + 0.4 * np.arange(n) / n)
         self.assertLess(abs(s.pair_correlation(r_max=0.3 / s.diameters.mean(), bins=1)[0] - 1), 0.05)
 
+    def test_a_fluid_between_walls_is_no_crystal(self):
+        s = start("slit", 400, 1, packing_fraction=0.3, diameters=None)
+        s.run(collisions_per_particle=20)
+        self.assertLess(s.crystal_score(), 1.5)
+
     def test_refusals(self):
         s = jam.System.random(n=4, dim=4, packing_fraction=0.01, walls=(True, False, False, False))
         with self.assertRaisesRegex(jam.errors.UnsupportedError, "d = 2 and 3"):

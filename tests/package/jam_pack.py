@@ -109,6 +109,7 @@ class JamPack(InFolder):
         tilted = self.dir / "t.xyz"
         tilted.write_text('2\nLattice="1 0 0 .3 1 0 0 0 1" Properties=pos:R:3:radius:R:1\n.1 .2 .3 .1\n.6 .7 .8 .1\n')
         self.refuse(2, "plain", "--input", tilted, "--output", self.dir / "a.dat")
+        self.refuse(2, "plain text stores no walls", "--n", 200000, "--walls", "z", "--output", self.dir / "a.dat")
 
     def test_shrinking_is_told(self):
         near, log = self.dir / "near.dat", self.dir / "log"
@@ -190,6 +191,31 @@ class JamPack(InFolder):
         self.assertEqual(report["contacts"], report["isostatic_contacts"])
         self.assertTrue(1.8 < report["packing_fraction"] < 3.5, report["packing_fraction"])
         self.refuse(2, "--model", "--model", "potts")
+        starts = []
+        for words in ((), ("--model", "mk", "--zeta", 0), ("--model", "mk", "--zeta", 1)):
+            self.report("--n", 20, "--no-md", "--no-crunch", "--output", self.dir / "start.dat", *words)
+            starts.append((self.dir / "start.dat").read_bytes())
+        self.assertEqual([start == starts[0] for start in starts[1:]], [True, False])  # shifts of size 0 are none
+
+    def test_dynamics_at_constant_volume(self):
+        start = self.dir / "start.dat"
+        before = self.report("--n", 64, "--phi0", 0.3, "--no-md", "--no-crunch", "--output", start)
+        after = self.report("--input", start, "--nve", 20, "--no-crunch")
+        self.assertEqual((after["packing_fraction"], after["jammed"]), (before["packing_fraction"], None))
+        self.assertEqual(after["protocol"], [{"stage": "nve", "collisions_per_particle": 20}])
+        self.assertAlmostEqual(after["collisions"], 20 * 64 / 2, delta=1)
+
+    def test_the_simplex_gives_the_same_packing(self):
+        start = self.dir / "start.dat"
+        self.report("--n", 40, "--diameters-ratio", 1.4, "--no-crunch", "--output", start)
+        ipm = self.report("--input", start)
+        told = run("--input", start, "--lp", "clp", "--report", "-")
+        if "Clp" in told.stderr:
+            self.skipTest("built without Clp")
+        clp = json.loads(told.stdout)
+        self.assertEqual((ipm["lp_solver"], clp["lp_solver"]), ("ipm", "clp"))
+        self.assertAlmostEqual(ipm["packing_fraction"], clp["packing_fraction"], 9)
+        self.assertEqual(ipm["contacts"], clp["contacts"])
 
     def test_diameters(self):
         job = ["--no-md", "--no-crunch", "--output", self.dir / "p.xyz"]
@@ -217,6 +243,10 @@ class JamPack(InFolder):
         self.assertIn("Lattice=\"10 0 0 0 10 0 0 0 20\"", (self.dir / "p.xyz").read_text())
         self.assertLess(abs(self.report("--n", 100, "--packing-fraction", 0.5)["packing_fraction"] - 0.5), 1e-12)
         self.assertLess(abs(self.report("--n", 50, "--packing-fraction", 0.1)["packing_fraction"] - 0.1), 1e-12)
+        whole = self.report("--sizes", "equal:mean=1.4", "--packing-fraction", 0.3, "--cell", "5,4,4", "--walls", "xyz")
+        self.assertEqual((whole["n"], whole["diameter_mean"]), (17, whole["diameter_mean_given"]))
+        self.assertAlmostEqual(whole["packing_fraction"], 17 * math.pi / 6 * 1.4**3 / 80, 12)
+        self.assertIn("17 whole spheres of --sizes have the packing fraction 0.305310446, nearest to the requested 0.3", whole["notes"][0])
         short = self.refused(1, "--n", 100, "--packing-fraction", 0.63, "--pressure", 20, "--quiet")
         self.assertIn("before the packing fraction 0.63", short)
         above = self.refused(1, "--input", self.dir / "p.xyz", "--porosity", 0.5, "--quiet")

@@ -160,7 +160,10 @@ CASE(extreme_vectors_are_replaced) {
     OWNED jam_system *sys = created_in_cell(&o, given, 4, x, 2, &sigma, 1);
     assert_int_equal(strstr(jam_notes(sys), "replaced by shorter ones of the same lattice") == NULL, cases[k].same);
     assert_int_equal(strstr(jam_notes(sys), "rotated with the cell") != NULL, cases[k].rotated);
-    assert_int_equal(jam_set_cell(sys, given, 4, t, 4, rotation, 4, NULL), JAM_OK);
+    size_t rows = 0;
+    assert_int_equal(jam_set_cell(sys, given, 4, t, 4, rotation, 4, &rows), JAM_OK);
+    assert_int_equal(rows, 2);
+    assert_int_equal(jam_get_cell(sys, cell, 3, &rows), JAM_E_BUFFER);
     assert_int_equal(t[0] == 1 && t[1] == 0 && t[2] == 0 && t[3] == 1, cases[k].same);
     assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
     if (cases[k].same && !cases[k].rotated) assert_memory_equal(cell, given, sizeof cell);

@@ -76,6 +76,17 @@ CASE(equal_models_are_compared) {
   assert_int_equal(c.stable_in_both, 20);
 }
 
+CASE(a_translation_changes_nothing) {
+  jam_create_options o = defaults(3, 20);
+  OWNED jam_system *a = made(&o, NULL, 0, NULL), *b = copy_of(a);
+  double moved[60];
+  for (int k = 0; k < 60; ++k) moved[k] = view_of(a, JAM_VIEW_POSITIONS)[k] + (k % 3 == 0 ? 0.4 : 0.1);
+  assert_int_equal(jam_set_positions(b, moved, 60), JAM_OK);
+  jam_comparison_report c;
+  assert_int_equal(compare(a, b, &c), JAM_OK);
+  assert_true(c.stable_in_both == 20 && c.displacement_max < 1e-13 && c.packing_fraction_change == 0.0);
+}
+
 /* Growth multiplies all diameters by one factor: that is the change of the packing fraction. Other changes are named.
  */
 CASE(diameters_that_differ_are_named) {

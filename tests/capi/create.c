@@ -108,6 +108,12 @@ CASE(overlap_is_named_or_shrunk) {
   OWNED jam_system *sys = created_from(&o, x, 6, &s, 1);
   const double *const view = view_of(sys, JAM_VIEW_DIAMETERS);
   assert_true(fabs(view[0] - 0.08) < 1e-15 && view[1] == view[0]);
+  const double wide = 1e9; /* than the box */
+  refused(&o, x, 3, &wide, 1, JAM_E_OVERLAP,
+          "they did not fit the cell: to shrink means to multiply all diameters by 1e-09");
+  o.shrink_min = 0.0;
+  OWNED jam_system *shrunk = created_from(&o, x, 3, &wide, 1);
+  assert_true(view_of(shrunk, JAM_VIEW_DIAMETERS)[0] == 1.0);
 }
 
 CASE(seeds_differ) {

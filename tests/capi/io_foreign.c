@@ -197,6 +197,11 @@ CASE(options_that_contradict_the_file) {
   expect_refused_as(text, NULL, &o, JAM_E_ARGUMENT, "the option dim is 4, but the file has 3");
   o = defaults(), o.box = 5.0;
   expect_refused_as(xyz, NULL, &o, JAM_E_ARGUMENT, "the option box is 5, but the file has 1");
+  const char *mixture = "1\n" BOX "Properties=pos:R:3:radius:R:1 non_additivity=0.25\n.1 .2 .3 .1\n";
+  o = defaults(), o.non_additivity = 0.5;
+  expect_refused_as(mixture, NULL, &o, JAM_E_ARGUMENT, "the option non_additivity is 0.5, but the file has 0.25");
+  expect_refused("1\n" BOX "Properties=pos:R:3:radius:R:1 non_additivity=-2\n.1 .2 .3 .1\n", JAM_E_ARGUMENT,
+                 "line 2: non_additivity is -2");
   o = defaults(), o.packing_fraction = 0.3;
   expect_refused_as(text, NULL, &o, JAM_E_ARGUMENT, "packing_fraction is 0.3");
   o = defaults(), o.n = 1, o.box = 5.0;

@@ -21,7 +21,12 @@ static jam_status call_monte_carlo(const jam_monte_carlo_options *o) { return ja
 static jam_status call_isoconf(const jam_isoconf_options *o) {
   return jam_isoconf(fluid, o, NULL, &one, 1, NULL, 0, NULL);
 }
-static jam_status call_crunch(const jam_crunch_options *o) { return jam_crunch(fluid, o, NULL); }
+static jam_status call_crunch(const jam_crunch_options *o) { /* its estimate refuses the same */
+  SIZED(jam_estimate_report, e);
+  const jam_status status = jam_estimate_crunch(fluid, o, &e);
+  assert_int_equal(jam_crunch(fluid, o, NULL), status);
+  return status;
+}
 static jam_status call_radii(const jam_radii_options *o) { return jam_maximise_radii(fluid, o, NULL, 0, NULL); }
 static jam_status call_relax(const jam_relax_options *o) { return jam_relax(soft, o, NULL); }
 static jam_status call_decompress(const jam_decompress_options *o) { return jam_decompress(soft, o, NULL); }
@@ -74,16 +79,17 @@ static int end(void **state) {
 #define REFUSED(...) REFUSED_WITH((void)o, __VA_ARGS__)
 
 CASE(sizes_of_options_are_checked) {
-#define SIZES(kind)                                                                     \
-  do {                                                                                  \
-    DEFAULTS(kind, o);                                                                  \
-    assert_int_equal(jam_##kind##_options_init(NULL, sizeof o), JAM_E_NULL);            \
-    assert_int_equal(jam_##kind##_options_init(&o, 2), JAM_E_STRUCT_SIZE);              \
-    assert_int_equal(jam_##kind##_options_init(&o, sizeof o + 520), JAM_E_STRUCT_SIZE); \
-    o.struct_size = 4000;                                                               \
-    SAYS(call_##kind(&o), JAM_E_STRUCT_SIZE, "struct_size is 4000");                    \
-    o.struct_size = 0;                                                                  \
-    SAYS(call_##kind(&o), JAM_E_STRUCT_SIZE, "struct_size is 0");                       \
+#define SIZES(kind)                                                                       \
+  do {                                                                                    \
+    DEFAULTS(kind, o);                                                                    \
+    assert_int_equal(jam_##kind##_options_init(NULL, sizeof o), JAM_E_NULL);              \
+    assert_int_equal(jam_##kind##_options_init(&o, 2), JAM_E_STRUCT_SIZE);                \
+    assert_int_equal(jam_##kind##_options_init(&o, sizeof o + 520), JAM_E_STRUCT_SIZE);   \
+    SAYS(jam_##kind##_options_init(&o, sizeof o + 1), JAM_E_STRUCT_SIZE, "cuts a field"); \
+    o.struct_size = 4000;                                                                 \
+    SAYS(call_##kind(&o), JAM_E_STRUCT_SIZE, "struct_size is 4000");                      \
+    o.struct_size = 0;                                                                    \
+    SAYS(call_##kind(&o), JAM_E_STRUCT_SIZE, "struct_size is 0");                         \
   } while (0)
   SIZES(create);
   SIZES(run);
@@ -130,7 +136,8 @@ CASE(making) {
   REFUSED_WITH(SPHERES, create, overlap, 7);
   REFUSED_WITH(SPHERES, create, model, 5);
   REFUSED_WITH((SPHERES, o.model = JAM_MODEL_MK), create, mk_zeta, -1.0, 1.1e15, NAN);
-  REFUSED_WITH(SPHERES, create, container, 7, -1);
+  REFUSED_WITH(SPHERES, create, container, 4, 7, -1);
+  REFUSED_SAYING("a cone has flat walls on axis z", SPHERES, create, container, JAM_CONTAINER_CONE);
   REFUSED_WITH(SPHERES, create, walls, 8, -1);
   REFUSED_WITH(SPHERES, create, wall_time, 0);
   REFUSED_WITH(SPHERES, create, memory_limit, -1);

@@ -162,6 +162,21 @@ CASE(wrong_forces_prove_nothing) {
   assert_false(prove(unbalanced.s, unbalanced.e).trapped);
 }
 
+// A square lattice balances and closes exactly, but its rows shear freely.
+CASE(rows_that_shear_prove_nothing) {
+  Lattice l;
+  Packing &p = l.packing;
+  p.set_cube(2, 4.0);
+  for (int k = 0; k < 16; ++k) p.position.push_back(k % 4), p.position.push_back(k / 4);
+  p.diameter.assign(16, 1.0);
+  list_contacts(l);
+  ProofScene s = make_proof_scene(p, l.network, {});
+  ProofEquations e = evaluate(s);
+  for (const double f : e.f) assert_true(f == 0.0);
+  const Proof proof = refine(s, e) ? prove(s, e) : Proof();
+  assert_false(proof.exact || proof.trapped);
+}
+
 // No listed contact is open by more than rounding of two doubles, no force pulls, and no pair overlaps by more.
 void check_closed(const ProofScene &s) {
   const ProofEquations e = evaluate(s);

@@ -158,6 +158,12 @@ void life(Work &w, Seen &seen, int dim, int model) {
     SIZED(jam_proof_report, proof);
     w.call("jam_prove", [&] { return jam_prove(copy, JAM_RIGIDITY_COLLECTIVE, nullptr, 0, &proof); });
     w.numbers.insert(w.numbers.end(), {proof.radius, proof.least_force, proof.fraction_error});
+    const size_t len = static_cast<size_t>(64 * dim);
+    std::vector<double> parts(2 * len);
+    w.call("jam_refined_positions", [&] {
+      return jam_refined_positions(copy, nullptr, 0, parts.data(), len, parts.data() + len, len, nullptr);
+    });
+    w.numbers.insert(w.numbers.end(), parts.begin(), parts.end());
   }
   DEFAULTS(isoconf, runs);
   runs.runs = 4, runs.threads = 2, runs.density_ratio = 0.9;

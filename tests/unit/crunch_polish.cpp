@@ -37,6 +37,9 @@ CASE(polish_refuses) {
   ContactNetwork net = r.contacts;
   for (double &f : net.force) f = -f;
   assert_true(try_polish(r.packing, net) == PolishEnd::negative_force);
+  std::vector<char> on(r.contacts.size(), 0);
+  on[0] = 1;  // one contact holds no sphere
+  assert_true(try_polish(r.packing, subset(r.contacts, on, 3)) == PolishEnd::too_few);
   net.pairs.clear(), net.force.clear(), net.gap.clear(), net.vector.clear();
   assert_true(try_polish(r.packing, net) == PolishEnd::no_contacts);
 

@@ -194,6 +194,16 @@ CASE(stops_in_a_free_cell) {
   }
 }
 
+CASE(free_cell_without_polish) {
+  SIZED(jam_crunch_report, r);
+  OWNED jam_system *sys = start(64);
+  DEFAULTS(crunch, o);
+  o.strain = JAM_STRAIN_FREE, o.polish = 0;
+  assert_true(jam_crunch(sys, &o, &r) >= 0);
+  assert_true(r.max_overlap < 1e-12 && fabs(volume(sys) - 1.0) < 1e-12 && r.force_residual < 1e-6);
+  assert_true(r.max_contact_gap < 1e-6 && r.contacts >= 3 * (r.stable - 1) + 6);
+}
+
 /* A decompression in the free cell follows a verdict: until there is another one, the report has none. */
 CASE(a_limit_leaves_no_older_verdict) {
   int limits = 0;

@@ -42,6 +42,11 @@ CASE(an_empty_network_is_answered) {
   }
   assert_int_equal(jam_hessian_map(fluid, NULL, 0, &m), JAM_OK);
   assert_int_equal(m, 0);
+  double x[10];
+  jam_moduli_report moduli = {.struct_size = sizeof moduli};
+  assert_int_equal(jam_modes(fluid, NULL, NULL, JAM_MODE_COLUMNS, x, 10, NULL, 0, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_stress_states(fluid, x, 10, NULL, 0, NULL, &m), JAM_NOT_JAMMED);
+  assert_int_equal(jam_moduli(fluid, NULL, &moduli), JAM_NOT_JAMMED);
 }
 
 /* With what it needs no call fails, but for what belongs into a callback. */

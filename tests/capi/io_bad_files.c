@@ -6,6 +6,12 @@ CASE(bad_plain_files_are_refused) {
   expect_refused("", JAM_E_FORMAT, "is empty");
   expect_refused("\n\n", JAM_E_FORMAT, "is empty");
   expect_refused("three\n2\n0.1\n", JAM_E_FORMAT, "line 1: 'three'");
+  expect_refused("3.0\n2\n0.1\n", JAM_E_FORMAT, "line 1: '3.0'");
+  expect_refused("3\n-5\n0.1\n", JAM_E_ARGUMENT, "-5");
+  expect_refused("3\n2\n-0.1\n", JAM_E_ARGUMENT, "line 3: the diameter is -0.1");
+  expect_refused("3\n2\n0.1\n0.1 0.2 0.3e\n", JAM_E_FORMAT, "line 4: '0.3e'");
+  expect_refused("3\n2\n0.1\n0.1 +-0.2 0.3\n", JAM_E_FORMAT, "line 4: '+-0.2'");
+  expect_refused("3\n2\n0.1\n0.1 -inf 0.3\n", JAM_E_NONFINITE, "line 4: '-inf'");
   expect_refused("3 2\n", JAM_E_FORMAT, "line 1: '3 2' begins no file that is read");
   expect_refused("3\n", JAM_E_FORMAT, "before the number of spheres");
   expect_refused("1\n2\n0.1\n0.5\n0.2\n", JAM_E_DIMENSION, "line 1: dim is 1");

@@ -242,6 +242,11 @@ CASE(threads_share_fronts) {
   for (size_t k = 0; k < x.size(); ++k) assert_true(std::fabs(x[k] - y[k]) < 1e-12 * largest);
   assert_int_equal(two.factorise(p.diag.data(), p.off.data()), 0);
   assert_true(solved(two) == y);  // parts are split the same way each time: bit for bit
+  std::vector<double> beside;     // two callers solve with one factor
+  std::thread other([&] { beside = solved(one); });
+  const std::vector<double> here = solved(one);
+  other.join();
+  assert_true(here == x && beside == x);
   for (const int threads : {3, 64}) {
     BlockCholesky more;
     assert_int_equal(analyse_and_factorise(more, p, threads), 0);

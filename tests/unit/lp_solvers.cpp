@@ -74,6 +74,23 @@ CASE(floats_serve) {
     }
 }
 
+// Reports that repeat themselves in a long LP say how many factorisations it took so far.
+CASE(long_lps_tell) {
+  const Packing p = start(60, 3, 0.3, 4);
+  Instance lp(p, 0.5, 0.2);
+  NewtonSystem system;
+  Monitor monitor;
+  int64_t told = -1;
+  monitor.begin();
+  monitor.progress = [](const jam_progress *x, void *out) {
+    return *static_cast<int64_t *>(out) = x->factorisations, 0;
+  };
+  monitor.progress_user = &told;
+  const LpSolution x = InteriorPoint(system).solve(lp, IpmControl(), &monitor);
+  while (told < 0) monitor.look();  // after a silence
+  assert_true(x.factorisations > 2 && told >= x.factorisations - 1);
+}
+
 // Long steps bring rows that stood outside the normal equations to bind: they must be seen.
 CASE(screened_rows_bind) {
   for (int seed = 1; seed <= 3; ++seed) {

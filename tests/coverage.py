@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.append(str(ROOT / "bindings/docs"))
 import figures  # noqa: E402
 
-FLOOR = 0.82  # share of the branches of src; 0.836 were reached when it was set
+FLOOR = 0.88  # share of the branches of src; 0.907 were reached when it was set
 COMMAND = "sh tests/run.sh coverage"
 build = Path(sys.argv[1])
 

@@ -291,7 +291,7 @@ class JamPack(InFolder):
         kept, job = self.dir / "state.bin", ["--n", "1000", "--growth", "1e-2:500", "--quiet"]
         self.report(*job, "--no-crunch", "--checkpoint", kept)
         often = ["--resume", kept, "--checkpoint", kept, "--checkpoint-every", "0.01"]
-        self.assertEqual(self.report(*job, *often, "--wall-time", 0.3, status=1)["stop_reason"], "wall_time")
+        self.assertEqual(self.report(*job, *often, "--wall-time", 0.05, status=1)["stop_reason"], "wall_time")
         last = self.report(*job, "--resume", kept)
         self.assertEqual((last["jammed"], last["collisions"]), (True, 0))  # dynamics are not made again
 

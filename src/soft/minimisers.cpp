@@ -91,6 +91,14 @@ void descent_way(const std::deque<Update> &updates, double first_stiffness, std:
   }
 }
 
+// Whether a descent of first order ends before its evaluation `count`, and how.
+bool descent_ends(Relaxation &r, int64_t count, double tolerance, DescentEnd &end) {
+  if (r.at_rest()) return end = DescentEnd::no_overlaps, true;
+  if (r.residual() < tolerance || (count % evaluations_between_looks == 0 && r.stable_residual() < tolerance))
+    return end = DescentEnd::balanced, true;
+  return r.must_stop(end);
+}
+
 }  // namespace
 
 // FIRE 2.0: dynamics with friction that is turned off while the motion goes downhill (Bitzek et al., Phys. Rev. Lett.
@@ -107,11 +115,8 @@ DescentEnd fire(Relaxation &r, double tolerance) {
   double step = FireTuning::first_step, mixing = FireTuning::mixing_start;
   int downhill = 0;
   for (int64_t count = 0;; ++count) {
-    if (r.at_rest()) return DescentEnd::no_overlaps;
-    if (r.residual() < tolerance || (count % evaluations_between_looks == 0 && r.stable_residual() < tolerance))
-      return DescentEnd::balanced;
     DescentEnd end;
-    if (r.must_stop(end)) return end;
+    if (descent_ends(r, count, tolerance, end)) return end;
     std::vector<double> &u = state.displacement(), &f = r.force;
     const double dt = step / std::sqrt(r.stiffness);
     double power = 0.0;
@@ -163,11 +168,8 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
   std::deque<Update> updates;
   std::vector<double> way, before;
   for (int64_t count = 0;; ++count) {
-    if (r.at_rest()) return DescentEnd::no_overlaps;
-    if (r.residual() < tolerance || (count % evaluations_between_looks == 0 && r.stable_residual() < tolerance))
-      return DescentEnd::balanced;
     DescentEnd end;
-    if (r.must_stop(end)) return end;
+    if (descent_ends(r, count, tolerance, end)) return end;
     before = way = r.force;
     descent_way(updates, r.stiffness, way);
     double slope = dot(before, way);

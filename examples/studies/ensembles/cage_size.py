@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Size of cages against pressure, by the length of the run. Section 7 of the studies: is it p^-1.4157?
+"""Size of cages against pressure, by the length of the run: is it p^-1.4157?
 
 usage: cage_size.py [--large] [--n N] [--seeds K] [--folder DIR] [--only-read]
 

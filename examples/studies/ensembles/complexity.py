@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""LPs, factorisations and time of a crunch against N: section 7 of the studies.
+"""LPs, factorisations and time of a crunch against N: figures 2.17 and 2.18.
 
 usage: complexity.py [--large] [--sizes N ...] [--seeds K] [--kappa K] [--folder DIR] [--only-read]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Polydisperse disks: forces and gaps at jamming against N, section 10 of the studies.
+"""Polydisperse disks: forces and gaps at jamming against N.
 
 usage: disks.py [--large] [--sizes N ...] [--folder DIR] [--only-read]
 

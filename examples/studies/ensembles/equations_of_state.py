@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pressure against packing fraction while diameters grow: section 8 of the studies.
+"""Pressure against packing fraction while diameters grow: figures 1.14, 1.15 and 2.5.
 
 usage: equations_of_state.py [--large] [--folder DIR] [--only-read]
 

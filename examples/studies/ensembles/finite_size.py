@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Forces, gaps and coordination at jamming against N: sections 6.5 (spheres) and 6.6 (Mari-Kurchan) of the studies.
+"""Forces, gaps and coordination at jamming against N, of spheres and Mari-Kurchan packings: chapter 4.
 
 usage: finite_size.py [--model euclid|mk] [--large] [--folder DIR] [--only-read]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Panels that test the scaling with N, and shapes of contacts: sections 6.3, 6.5.3 to 6.5.6, 6.6.2 and 6.6.5 of the studies.
+"""Panels that test the scaling with N, and shapes of contacts: chapter 4.
 
 usage: finite_size_panels.py [--model euclid|mk] [--large] [--folder DIR] [--only-read]
 

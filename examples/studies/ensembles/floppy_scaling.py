@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Floppy modes against N: section 9 of the studies, from the spheres of finite_size.py.
+"""Floppy modes against N, from the spheres of finite_size.py.
 
 usage: floppy_scaling.py [--large] [--folder DIR] [--only-read]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Why does the collapse of gaps prefer an exponent below gamma? Looks into a row of finite_size.py, section 6.5.5.
+"""Why does the collapse of gaps prefer an exponent below gamma? Looks into figure 4.6, a row of finite_size.py.
 
 usage: gap_collapse.py [--large] [--kappa K] [--folder DIR] [--only-read]
 

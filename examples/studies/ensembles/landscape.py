@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Jammed states around one glass: which one a crunch finds, and how far it lies. Section 7 of the studies, its open questions.
+"""Jammed states around one glass: which one a crunch finds, and how far it lies: open questions of chapter 2.
 
 usage: landscape.py [--large] [--folder DIR] [--only-read]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""g(r) of jammed packings of all sizes, and on the path to jamming: sections 6.5.1 and 7 of the studies.
+"""g(r) of jammed packings of all sizes, and on the path to jamming: figures 2.10 and 4.2.
 
 usage: pair_correlation.py [--large] [--folder DIR] [--only-read]
 

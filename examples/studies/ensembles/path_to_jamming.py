@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Jamming density, contacts, LPs and displacements against the pressure where growth stops: section 7 of the studies.
+"""Jamming density, contacts, LPs and displacements against the pressure where growth stops: figures 2.8, 2.9, 2.14 and 2.16.
 
 usage: path_to_jamming.py [--large] [--n N] [--seeds K] [--kappas K ...] [--folder DIR] [--only-read]
 

@@ -12,9 +12,11 @@ import tempfile
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-LAB = "texts needs recipe parts engine keep view session panel_make panel_check panel_look main".split()
+START = "needs unpack start".split()
+LAB = "texts unpack recipe parts engine keep view session panel_make panel_check panel_look main".split()
 PROOF = "exact scene inverse implied trapped check".split()
 EXPORT = re.compile(r"^export (?=(?:async )?(?:const|let|function|class) )|^export \{[^}]*\}.*\n", re.M)
+PACKED = re.compile('(<script type="text/plain" id="(\\w+)">)([^<]*)')
 
 
 def joined(folder, names):
@@ -24,29 +26,28 @@ def joined(folder, names):
         return out.read_text("utf-8")
 
 
-def script(text):
-    """Inside a script element, which nothing in it may end. Comments and empty lines stay in the sources."""
-    text = re.sub(r"^[ \t]*(?:/\*(?:(?!\*/)[\s\S])*\*/|//.*)?[ \t]*\n", "", text, flags=re.M)
-    if re.search("</script|<!--", text, re.I):
-        sys.exit("a part has </script> or <!--")
-    return text
+def packed(data):
+    return base64.b64encode(gzip.compress(data, 9, mtime=0)).decode()
 
 
 def page(package):
     library = EXPORT.sub("", (package / "jam.bundle.mjs").read_text("utf-8"))
-    js = f"const {{ spawnOn, webPort }} = (() => {{\n{library}\nreturn {{ spawnOn, webPort }};\n}})();\n{joined(HERE, LAB)}"
-    wasm = base64.b64encode(gzip.compress((package / "jam.wasm").read_bytes(), 9, mtime=0)).decode()
-    parts = {"CSS": (HERE / "lab.css").read_text("utf-8"), "JS": script(js), "WASM": wasm,
-             "ENGINE": script((package / "worker.bundle.js").read_text("utf-8")), "CHECKER": script(joined(HERE / "proof", PROOF))}  # fmt: skip
+    library = f"const {{ spawnOn, webPort }} = (() => {{\n{library}\nreturn {{ spawnOn, webPort }};\n}})();\n"
+    parts = {"CSS": (HERE / "lab.css").read_text("utf-8"), "START": joined(HERE, START),
+             "WASM": packed((package / "jam.wasm").read_bytes()), "ENGINE": packed((package / "worker.bundle.js").read_bytes()),
+             "CHECKER": packed(joined(HERE / "proof", PROOF).encode()),
+             "SCRIPTS": packed(f'"use strict";\n{library}{joined(HERE, LAB)}'.encode())}  # fmt: skip
     return re.sub("@([A-Z]+)@", lambda m: parts[m[1]], (HERE / "lab.html").read_text("utf-8"))
 
 
-def without_wasm(text):
-    return re.sub('(id="wasm">)[^<]*', r"\1", text)
+def contents(text):
+    """What stays the same with another commit and another zlib."""
+    parts = {name: gzip.decompress(base64.b64decode(data)) for _, name, data in PACKED.findall(text) if name != "wasm"}
+    return PACKED.sub(r"\1", text), parts
 
 
 if __name__ == "__main__":
     made = page(Path(sys.argv[1]))
     Path(sys.argv[2]).write_text(made, "utf-8")
-    if sys.argv[3:] and without_wasm(Path(sys.argv[3]).read_text("utf-8")) != without_wasm(made):
+    if sys.argv[3:] and contents(Path(sys.argv[3]).read_text("utf-8")) != contents(made):
         sys.exit(f"{sys.argv[3]} is not what this tree makes: build it anew and commit it")

@@ -1,28 +1,22 @@
 // The library in a worker, from what the page holds, and the work that takes several of its calls.
-import { missing } from './needs.mjs';
 import { growthOf, isCrunched, lawOf, ratioOf, startOf, twoSizes } from './recipe.mjs';
 import { TEXT } from './texts.mjs';
+import { unpacked } from './unpack.mjs';
 
 const FRAMES = 0.25; // seconds between pictures of a packing that grows
 const LARGEST = 2 ** 26, ROOM = 2 ** 31; // bytes of a file; of memory that a crunch may take
 const SHOWN = 8; // contacts in the table of the strongest
 
-const held = (id) => document.getElementById(id).textContent.trim();
-async function unpackedWasm() {
-  const packed = Uint8Array.from(atob(held('wasm')), (c) => c.charCodeAt(0));
-  return new Uint8Array(await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer());
-}
-const workerOf = (id) => new Worker(URL.createObjectURL(new Blob([held(id)], { type: 'text/javascript' })));
+const workerOf = (script) => new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
 
 export async function startEngine() {
-  const lacks = missing();
-  if (lacks.length) throw new Error(TEXT.lacks(lacks.map(([what, since]) => `${what} (${since})`).join('; ')));
-  return spawnOn(() => webPort(workerOf('engine')), await unpackedWasm());
+  const script = await unpacked('engine').text();
+  return spawnOn(() => webPort(workerOf(script)), new Uint8Array(await unpacked('wasm').arrayBuffer()));
 }
 
 /** Answer of the checker, which is a worker of its own. */
-export function checkedProof(bytes) {
-  const worker = workerOf('checker');
+export async function checkedProof(bytes) {
+  const worker = workerOf(await unpacked('checker').text());
   return new Promise((resolve, reject) => {
     worker.onmessage = ({ data }) => resolve(data);
     worker.onerror = (event) => reject(new Error(event.message));

@@ -14,7 +14,6 @@ export const TEXT = {
   left: (s) => (Number.isFinite(s) ? `about ${s < 90 ? `${Math.max(1, Math.round(s))} s` : `${Math.round(s / 60)} min`} left` : ''),
   noPacking: 'There is no packing yet: make one, or choose a file.',
   view: 'Picture of the packing, with its numbers',
-  lacks: (list) => `This browser lacks: ${list}. Use one of these versions or newer, or the program jam-pack.`,
   noView: 'This browser has no WebGL2, so pictures stay empty. All numbers are there.',
   noMemory: 'Close other pages, or use fewer spheres, or use the program jam-pack.',
   tooLarge: (mb) => `The file has ${mb} MB; this page takes up to 64 MB. Use jam-pack check FILE on a computer.`,

@@ -133,7 +133,7 @@ fi
 if wants sanitizers; then
 part "address and undefined-behaviour sanitizers"
 sanitize_by_clang
-cmake --build build-asan -j "$jobs"
+cmake --build build-asan -j "$jobs" --target jam_sanitized
 part "its tests"
 ctest --test-dir build-asan -j "$at_once" -L 'unit|capi' -LE 'long|slow' --timeout 900 \
   --output-on-failure --no-tests=error || status=1

@@ -1,4 +1,5 @@
-"""The inputs on the guide's page "From a bed to CFD or DEM" let LAMMPS and LIGGGHTS settle the bed that libjam wrote."""
+"""The inputs on the guide's page "From a bed to CFD or DEM" let LAMMPS and LIGGGHTS settle the bed that libjam wrote; the
+factors of the page "Units" give pascals."""
 import contextlib
 import re
 import shutil
@@ -56,3 +57,19 @@ class Settling(unittest.TestCase):
     @unittest.skipUnless(shutil.which("liggghts"), "LIGGGHTS (Debian: liggghts) is not installed")
     def test_by_liggghts(self):
         self.settle("liggghts", "settled.liggghts")
+
+
+class Units(unittest.TestCase):
+    def test_springs_give_pascals(self):
+        """P = sum of f r / (d V), with forces in newton and lengths in metre."""
+        stiffness, grain = 1e3, 1e-3
+        for dim, density in ((3, 0.7), (2, 0.9)):
+            soft = jam.System.random(128, dim, seed=1, packing_fraction=density, overlap="allow")
+            report = soft.relax(scale="absolute")
+            unit = grain / soft.diameters.mean()
+            d = unit * (soft.positions[:, None] - soft.positions)
+            d -= unit * np.rint(d / unit)
+            r = np.sqrt((d**2).sum(-1))[np.triu_indices(128, 1)]
+            expected = (stiffness * np.maximum(0, grain - r) * r).sum() / (dim * unit**dim)
+            self.assertGreater(expected, 0)
+            self.assertAlmostEqual(report.pressure * stiffness / unit ** (dim - 2) / expected, 1, 12)

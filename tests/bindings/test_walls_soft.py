@@ -2,6 +2,7 @@
 
 The energy is a sum over pairs and walls that is written here anew, from positions alone.
 """
+import itertools
 import unittest
 
 import jam
@@ -57,9 +58,9 @@ class Minima(unittest.TestCase):
             self.assertTrue((c.pairs[:, 1] < 0).any())
 
     def test_hessian_is_the_second_difference_of_the_energy(self):
-        for name in SCENES:
+        for name, alpha in itertools.product(SCENES, (2.0, 2.5)):
             s = soft(name, 20, 5, dense(name))
-            s.relax()
+            s.relax(alpha=alpha)
             spheres = s.hessian_map()
             h = s.hessian(stiffness="soft", prestress=1.0)
             u = np.random.default_rng(2).normal(size=(len(spheres), s.dim))
@@ -67,9 +68,9 @@ class Minima(unittest.TestCase):
             x = [s.positions.copy() for _ in range(3)]
             for k in (0, 2):
                 x[k][spheres] += (k - 1) * step * u
-            low, middle, high = (energy(SCENES[name], y, s) for y in x)
+            low, middle, high = (energy(SCENES[name], y, s, alpha=alpha) for y in x)
             second = (low + high - 2 * middle) / step**2
-            self.assertAlmostEqual(u.ravel() @ (h @ u.ravel()) / second, 1, 3, name)
+            self.assertAlmostEqual(u.ravel() @ (h @ u.ravel()) / second, 1, 3, (name, alpha))
             self.assertGreater(s.modes(k=2, stiffness="soft", prestress=1.0).values[0], 0)
 
     def test_walls_of_many_dimensions(self):

@@ -53,17 +53,20 @@ for (const [name, options, largest, crunch, moves] of scenes)
     p.dispose();
   });
 
-for (const [dim, name] of [[2, 'd=2 disks'], [3, 'd=3 spheres']])
+for (const dim of [2, 3, 4, 5, 6, 7, 8]) {
+  const name = `d=${dim} ${dim === 2 ? 'disks' : 'spheres'}`;
   test(`${name}, Monte Carlo and relaxation`, () => {
     const start = (packingFraction, overlap) => jam.random({ dim, n: 100, seed: 5, packingFraction, overlap, diameters: sizes(100, 1.4) });
     for (const [kind, alpha] of [['hard', 0], ['soft', 2.7]]) {
-      const p = start(0.2, alpha ? 'allow' : 'refuse');
-      p.monteCarlo({ alpha, sweeps: 20, temperature: 0.1 });
+      const p = start(0.2 / (dim > 3 ? 2 ** (dim - 2) : 1), alpha ? 'allow' : 'refuse');
+      p.monteCarlo({ alpha, sweeps: dim > 3 ? 2 : 20, temperature: 0.1, step: dim > 3 ? 0.1 : 0 });
       packing(`md ${name}, ${kind} Monte Carlo`, p);
     }
+    if (dim > 3) return;
     const p = start(1, 'allow');
     p.relax({ alpha: 2.7 });
     packing(`crunch ${name}, relaxation`, p);
   });
+}
 
 test('every recorded line was compared', () => assert.deepEqual([...compared].sort(), [...recorded.keys()].sort()));

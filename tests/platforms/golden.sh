@@ -10,17 +10,18 @@ if [ "${2:-}" = record ]; then
   "$build/tests/jam_bits" >"$golden"
   exit
 fi
-made=$(mktemp)
-trap 'rm -f "$made"' EXIT
+made=$(mktemp) expected=$(mktemp)
+trap 'rm -f "$made" "$expected"' EXIT
 status=0
 # compare NAME COMMAND...
 compare() {
   name=$1
   shift
   "$@" >"$made" || status=1
-  cmp -s "$golden" "$made" && echo "$name: same bits" && return
+  head -n "$(wc -l <"$made")" "$golden" >"$expected" # lines of d > 3 come last: a build may have fewer dimensions
+  cmp -s "$expected" "$made" && echo "$name: same bits" && return
   echo "$name:"
-  diff "$golden" "$made" || status=1
+  diff "$expected" "$made" || status=1
 }
 hidden=glibc.cpu.hwcaps=-AVX2,-FMA,-FMA4,-AVX512F
 compare "this processor" "$build/tests/jam_bits"

@@ -155,17 +155,24 @@ CASE(instruction_sets_give_the_same_bits) {
     int dim, n;
     double fraction, ratio, growth, non_additivity;
     int64_t cells;
-    int32_t model;
-  } const cases[] = {
-      {2, 500, 0.4, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},   {3, 500, 0.2, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
-      {3, 500, 0.2, 1.0, 30.0, 0.0, 0, JAM_MODEL_EUCLID},  {4, 300, 0.1, 1.4, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
-      {5, 300, 0.05, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},  {6, 200, 0.02, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
-      {7, 200, 0.01, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},  {8, 200, 0.004, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},
-      {3, 2000, 0.2, 20.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID}, {3, 500, 0.2, 1.4, 0.1, 0.2, 0, JAM_MODEL_EUCLID},
-      {3, 12, 0.2, 1.0, 0.1, 0.0, 0, JAM_MODEL_EUCLID},    {3, 500, 0.1, 1.0, 0.0, 0.0, 1, JAM_MODEL_EUCLID},
-      {3, 300, 0.3, 1.0, 0.1, 0.0, 0, JAM_MODEL_MK}};
+    int32_t model = JAM_MODEL_EUCLID;
+    const double *rows = nullptr;
+  } const cases[] = {{2, 500, 0.4, 1.0, 0.1, 0.0, 0},
+                     {3, 500, 0.2, 1.0, 0.1, 0.0, 0},
+                     {3, 500, 0.2, 1.0, 30.0, 0.0, 0},
+                     {4, 300, 0.1, 1.4, 0.1, 0.0, 0},
+                     {5, 300, 0.05, 1.0, 0.1, 0.0, 0},
+                     {6, 200, 0.02, 1.0, 0.1, 0.0, 0},
+                     {7, 200, 0.01, 1.0, 0.1, 0.0, 0},
+                     {8, 200, 0.004, 1.0, 0.1, 0.0, 0},
+                     {3, 2000, 0.2, 20.0, 0.1, 0.0, 0},
+                     {3, 500, 0.2, 1.4, 0.1, 0.2, 0},
+                     {3, 12, 0.2, 1.0, 0.1, 0.0, 0},
+                     {3, 500, 0.1, 1.0, 0.0, 0.0, 1},
+                     {3, 300, 0.3, 1.0, 0.1, 0.0, 0, JAM_MODEL_MK},
+                     {3, 500, 0.3, 1.4, 0.1, 0.0, 0, JAM_MODEL_EUCLID, monoclinic.data()}};
   for (const auto &c : cases) {
-    Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 3, c.non_additivity, c.model), first;
+    Packing start = random_packing(c.dim, c.n, c.fraction, c.ratio, 3, c.non_additivity, c.model, c.rows), first;
     for (InstructionSet set : {InstructionSet::portable, InstructionSet::avx2, InstructionSet::avx512}) {
       if (!has_instruction_set(set)) continue;
       Packing p = start;

@@ -34,7 +34,7 @@ parts=${*:-release kernels alone sanitizers threads fuzz}
 need_packages build-essential cmake ninja-build pkg-config python3 libeigen3-dev coinor-libclp-dev libspectra-dev \
   zlib1g-dev libcmocka-dev
 if [ "$parts" != quick ]; then
-  need_packages clang clang-format libopenblas-dev voro++-dev swig gfortran lintian debhelper dh-python \
+  need_packages clang lld clang-format libopenblas-dev voro++-dev swig gfortran lintian debhelper dh-python \
     python3-dev python3-venv python3-numpy python3-scipy python3-matplotlib python3-h5py python3-pandas python3-tqdm \
     python3-mpi4py openmpi-bin python3-distributed python3-dask python3-networkx chromium python3-gsd python3-ase \
     python3-mdanalysis python3-vtk9 lammps liggghts mypy python3-nbclient python3-ipykernel doxygen python3-sphinx \

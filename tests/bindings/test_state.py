@@ -209,7 +209,9 @@ class Copies(unittest.TestCase):
         a.compress(growth_rate=1e-2, pressure=1e4)
         with tempfile.TemporaryDirectory() as folder:
             report = a.crunch(duality_gap=1e-7, checkpoint=folder + "/c")
-            rest = jam.System.from_checkpoint(folder + "/c").crunch()
+            again = jam.System.from_checkpoint(folder + "/c")
+        self.assertEqual(again.info.paused.name, "CRUNCH")
+        rest = again.crunch()
         self.assertEqual((report.status.name, report.stop_reason.name, report.jammed), ("OK", "DUALITY_GAP", False))
         self.assertTrue(rest.jammed)
         self.assertGreater(rest.packing_fraction, report.packing_fraction)

@@ -47,6 +47,7 @@ CASE(an_empty_network_is_answered) {
   assert_int_equal(jam_modes(fluid, NULL, NULL, JAM_MODE_COLUMNS, x, 10, NULL, 0, &m), JAM_NOT_JAMMED);
   assert_int_equal(jam_stress_states(fluid, x, 10, NULL, 0, NULL, &m), JAM_NOT_JAMMED);
   assert_int_equal(jam_moduli(fluid, NULL, &moduli), JAM_NOT_JAMMED);
+  assert_int_equal(jam_floppy_modes(fluid, NULL, 0, JAM_FLOPPY_COLUMNS, x, 10, NULL, 0, &m), JAM_NOT_JAMMED);
 }
 
 /* With what it needs no call fails, but for what belongs into a callback. */

@@ -7,6 +7,7 @@ CASE(bad_plain_files_are_refused) {
   expect_refused("\n\n", JAM_E_FORMAT, "is empty");
   expect_refused("three\n2\n0.1\n", JAM_E_FORMAT, "line 1: 'three'");
   expect_refused("3.0\n2\n0.1\n", JAM_E_FORMAT, "line 1: '3.0'");
+  expect_refused("3\n2.0\n0.1\n", JAM_E_FORMAT, "line 2: '2.0'");
   expect_refused("3\n-5\n0.1\n", JAM_E_ARGUMENT, "-5");
   expect_refused("3\n2\n-0.1\n", JAM_E_ARGUMENT, "line 3: the diameter is -0.1");
   expect_refused("3\n2\n0.1\n0.1 0.2 0.3e\n", JAM_E_FORMAT, "line 4: '0.3e'");

@@ -6,7 +6,7 @@ sanitize() {
   folder=$1; shift
   cmake -S . -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
     -DJAM_SANITIZE=address,undefined -DJAM_CHECK_PAIRS=ON -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF "$@" >/dev/null
-  export UBSAN_OPTIONS=halt_on_error=1:print_stacktrace=1
+  export UBSAN_OPTIONS=print_stacktrace=1
   export ASAN_OPTIONS=detect_stack_use_after_return=1
 }
 # Clang brings other warnings and another code generator than the release build. One build serves the tests and the

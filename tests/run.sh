@@ -6,7 +6,7 @@
 #   alone       the library of the wheel, without LAPACK, Clp and voro++: unit tests of what takes their place
 #   sanitizers  address and undefined behaviour, by Clang, warnings as errors: unit tests and those of the C interface,
 #               but ten that take minutes each
-#   threads     the thread sanitizer over the tests that use several threads
+#   threads     the thread sanitizer, by Clang, over the tests that use several threads
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
 # More run when they are named, as they take long:
 #   clang       the library without sanitizers by Clang, and its C tests
@@ -23,7 +23,7 @@
 #   browser     libjam for JavaScript by Emscripten, its tests by Node, and the page lab.html where ./build is there
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs, those ten too
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan
-# (of two parts), ./build-tsan, ./build-clang, ./build-asan-gcc, ./build-openblas, ./build-two and ./build-wasm.
+# (of two parts), ./build-threads, ./build-clang, ./build-asan-gcc, ./build-openblas, ./build-two and ./build-wasm.
 # Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -150,15 +150,15 @@ fi
 
 if wants threads; then
 part "thread sanitizer"
-cmake -S . -B build-tsan -G Ninja -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
-  -DJAM_SANITIZE=thread -DCMAKE_UNITY_BUILD=ON -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF \
-  -DJAM_BUILD_CLI=OFF >/dev/null
+# shellcheck disable=SC2046
+cmake -S . -B build-threads -G Ninja $(by_clang) -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1 \
+  -DJAM_SANITIZE=thread -DJAM_DIMENSIONS="2;3" -DJAM_BUILD_EXAMPLES=OFF -DJAM_BUILD_CLI=OFF >/dev/null
 # What starts threads: races on a handle, handles on threads of their own, and runs and factorisations on several
 # threads.
 threaded='capi_thread_gate capi_thread_calls capi_host_state capi_isoconfigurational unit_block_cholesky'
 # shellcheck disable=SC2086
-cmake --build build-tsan -j "$jobs" --target $threaded
-TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-tsan -j "$at_once" --timeout 900 \
+cmake --build build-threads -j "$jobs" --target $threaded
+TSAN_OPTIONS=halt_on_error=1 ctest --test-dir build-threads -j "$at_once" --timeout 900 \
   --output-on-failure --no-tests=error -R "^($(echo "$threaded" | sed 's/_/\//; s/ \([a-z]*\)_/|\1\//g'))\$" || status=1
 fi
 

@@ -9,10 +9,14 @@ sanitize() {
   export UBSAN_OPTIONS=print_stacktrace=1
   export ASAN_OPTIONS=detect_stack_use_after_return=1
 }
-# Clang brings other warnings and another code generator than the release build. One build serves the tests and the
-# fuzz targets.
+# Clang brings other warnings and another code generator than the release build, and takes a quarter less time with
+# sanitizers; its linker takes half as long. One build serves the tests and the fuzz targets.
+by_clang() {
+  linker=; if command -v ld.lld >/dev/null; then linker=-fuse-ld=lld; fi
+  echo -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_UNITY_BUILD=ON \
+    "-DCMAKE_EXE_LINKER_FLAGS=$linker -DCMAKE_SHARED_LINKER_FLAGS=$linker"
+}
 sanitize_by_clang() {
-  linker=; if command -v ld.lld >/dev/null; then linker=-fuse-ld=lld; fi  # links take half the time
-  sanitize build-asan -DCMAKE_C_COMPILER=clang -DCMAKE_CXX_COMPILER=clang++ -DJAM_WERROR=ON -DJAM_FUZZ=ON \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_EXE_LINKER_FLAGS=$linker -DCMAKE_SHARED_LINKER_FLAGS=$linker
+  # shellcheck disable=SC2046
+  sanitize build-asan $(by_clang) -DJAM_WERROR=ON -DJAM_FUZZ=ON
 }

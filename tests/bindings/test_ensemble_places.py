@@ -185,8 +185,8 @@ class Releases(Case):
 
     def test_the_algorithm_rises_with_a_default(self):
         """The complete default protocol of the algorithm; options that later releases add are not in it. A default that
-        differs is another algorithm: see ALGORITHM in _formats/provenance.py."""
-        kept = json.loads(Path(__file__).with_name(f"protocol_{jam._formats.provenance.ALGORITHM}.json").read_text())
+        differs is another algorithm: see ALGORITHM in _formats/write_packing.py."""
+        kept = json.loads(Path(__file__).with_name(f"protocol_{jam._formats.write_packing.ALGORITHM}.json").read_text())
         now = jam.ensemble.complete({})
         for part in ("start", "crunch"):
             self.assertEqual({k: now[part][k] for k in kept[part]}, kept[part])

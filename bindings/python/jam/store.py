@@ -4,14 +4,9 @@ from __future__ import annotations
 import json
 import os
 
-import numpy as np
-
 from ._api.shown import only
-from ._formats.content import damaged, refusing
-from ._formats.provenance import provenance
-from ._formats.sealed import read_packing
-from ._formats.shard import write_shard
-from ._formats.write_packing import image, save
+from ._formats.seal import damaged, read_packing, refusing
+from ._formats.write_packing import CONTACTS, image, provenance, save, write_shard
 from .errors import JamError, StoreError
 from .system import System, restore
 
@@ -43,24 +38,22 @@ def load(
     """
     packing = read_packing(path, name, memory_limit)
     with refusing(path):
-        sizes = packing.array("jam/diameters", "f8", -1)
-        n = len(sizes)
-        places = packing.array("particles/spheres/position/value", "f8", 1, n, -1)
-        calls = json.loads(packing.get("jam/calls"))
+        calls, stored = json.loads(packing.get("jam/calls")), packing.arrays
         if not (isinstance(calls, list) and all(isinstance(c, dict) for c in calls)):
             raise ValueError("jam/calls is not a list of calls")
-        packing.check_record("jam/report")
-        packing.check_record("jam/history", -1)
-        contacts = packing.contacts(n, places.shape[2])
+        for record, dimensions in (("jam/report", 0), ("jam/history", 1)):
+            if record in stored and not (stored[record].dtype.names and stored[record].ndim == dimensions):
+                raise ValueError(f"{record} is {stored[record].dtype}, not a record")
         try:
-            made = restore(packing.arrays["jam/state"].tobytes(), calls, [])
-            same = contacts is None or contacts.table().tobytes() == made.contacts.table().tobytes()
+            made = restore(stored["jam/state"].tobytes(), calls, [])
+            same = {"particles/spheres/position/value": made.positions[None], "jam/diameters": made.diameters}
+            if "jam/contacts/pairs" in stored:
+                same.update({"jam/contacts/" + part: getattr(made.contacts, part) for part in CONTACTS})
         except JamError as error:
             if isinstance(error, MemoryError):
                 raise
             raise damaged(path, f"jam/state: {error}") from error
-        if not (np.array_equal(made.positions, places[0]) and np.array_equal(made.diameters, sizes)):
-            raise damaged(path, "positions or diameters are not those of jam/state")
-        if not same:
-            raise damaged(path, "contacts are not those of jam/state")
+        for part, value in same.items():
+            if (stored[part].dtype, stored[part].shape, stored[part].tobytes()) != (value.dtype, value.shape, value.tobytes()):
+                raise damaged(path, f"{part} is not that of jam/state")
         return made

@@ -23,12 +23,8 @@ _PART = re.compile(r"\.jam-[0-9a-f]{16}-[0-9a-f]{32}\.part")
 
 
 def replaceable(path: str | os.PathLike[str]) -> str:
-    """The regular file that a rename onto path may replace. Links are followed, so that they stay.
-
-    Devices, pipes and folders are refused: a rename would put a file in their place. So are open descriptors: the shell
-    may append to their file, which a rename would replace. So are files that may not be written: a rename would pass
-    over their protection.
-    """
+    """The regular file that a rename onto path may replace; links are followed, so that they stay. A rename would put a file in
+    the place of devices, pipes, folders and what the shell has opened, and pass over the protection of files."""
     if _OPEN.fullmatch(os.fsdecode(path)):
         raise OSError(errno.EINVAL, "it is an open descriptor, give the name of a file", os.fspath(path))
     real = os.path.realpath(os.fspath(path))
@@ -55,45 +51,32 @@ def open_regular(path: str | os.PathLike[str]) -> IO[bytes]:
     return os.fdopen(descriptor, "rb")
 
 
-def _begin(target: str) -> str:
-    """How names of unfinished files of a target begin: of one length, however long its own name is."""
-    return ".jam-" + hashlib.sha256(os.fsencode(os.path.basename(target))).hexdigest()[:16] + "-"
-
-
 def _locked(folder: str, begin: str) -> tuple[int, str]:
     """A new file under a lock: its descriptor and its name."""
     while True:
         name = os.path.join(folder, f"{begin}{uuid.uuid4().hex}.part")
         descriptor = os.open(name, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666)
-        try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            taken = False
-        except OSError as error:  # a file system without locks refuses them otherwise
-            taken = error.errno == errno.EWOULDBLOCK
-        # before the lock somebody may have taken it for abandoned
-        if not taken and os.fstat(descriptor).st_nlink > 0:
+        with contextlib.suppress(OSError):  # a file system without locks
+            fcntl.flock(descriptor, fcntl.LOCK_EX)  # waits for who takes it for abandoned, and removes it
+        if os.fstat(descriptor).st_nlink > 0:
             return descriptor, name
         os.close(descriptor)
 
 
 def remove_abandoned(folder: str | os.PathLike[str], begin: str = "") -> None:
     """Removes the unfinished files of a folder whose writer is gone. What fails here is no error."""
-    for name in os.listdir(folder):
-        if not _PART.fullmatch(name) or not name.startswith(begin):
-            continue
-        with contextlib.suppress(OSError):
-            descriptor = os.open(os.path.join(folder, name), os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK)
-            try:
-                fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                os.unlink(os.path.join(folder, name))
-            finally:
-                os.close(descriptor)
+    names: list[str] = []
+    with contextlib.suppress(OSError):
+        names = [name for name in os.listdir(folder) if _PART.fullmatch(name) and name.startswith(begin)]
+    for path in (os.path.join(folder, name) for name in names):
+        with contextlib.suppress(OSError), open(os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK), "rb", 0) as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            os.unlink(path)
 
 
 def _take_permissions(descriptor: int, old: os.stat_result) -> None:
-    """What may be done with the old file may be done with the new one, by the same people: its owner and group, where this
-    process may give a file away (root does, as if it had written into the file), and its mode. Where the group stays
-    another, that group gets nothing. Bits that lend the owner's rights to whoever runs a file are never taken.
+    """The new file gets the mode of the old one, and its owner and group where this process may give a file away. Where the
+    group stays another, that group gets nothing. Bits that lend the owner's rights to whoever runs a file are never taken.
     """
     mode = old.st_mode & 0o777
     for owner, group in ((old.st_uid, old.st_gid), (-1, old.st_gid)):
@@ -111,19 +94,15 @@ def replacing(
 ) -> Iterator[IO[Any]]:
     """A file that takes the place of path when the block ends without an exception: flushed to the disk, then renamed.
 
-    Parameters
-    ----------
-    mode : {'wb', 'w+b', 'w'}
-        Bytes, bytes that are read again, or ASCII text.
-    parts : path, optional
-        Folder of the unfinished file, on the same file system; default that of path, where those that killed writers
-        of path left are removed first.
+    Modes are 'wb', 'w+b' to read the bytes again, and 'w' for ASCII text. parts: folder of the unfinished file, on the same
+    file system; default that of path, where those that killed writers of path left are removed first.
     """
     target = replaceable(path)
-    folder, begin = os.fspath(parts or os.path.dirname(target)), _begin(target)
+    folder, name = os.path.split(target)
+    folder = os.fspath(parts or folder)
+    begin = f".jam-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}-"  # of one length, however long the name is
     if parts is None:
-        with contextlib.suppress(OSError):
-            remove_abandoned(folder, begin)
+        remove_abandoned(folder, begin)
     descriptor, beside = _locked(folder, begin)
     try:
         opened: Any = open(beside, mode, encoding=None if "b" in mode else "ascii", opener=lambda *_: descriptor)

@@ -11,15 +11,19 @@ packing is checked as a whole. Of a shard, which holds many, only what is read i
 """
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import math
+import os
 import re
-from typing import IO, Any, Collection, Iterable, Sequence
+from typing import IO, Any, Collection, Iterable, Iterator, NamedTuple, Sequence
 
 import numpy as np
 
-from .content import Packing, plain_value
+from .._api.arrays import Array
+from ..errors import StoreError
+from .replacing import open_regular
 
 try:
     import h5py
@@ -33,8 +37,28 @@ BEGIN = b"jam packing file"
 _MOST_ARRAYS, _DEEPEST = 4096, 12  # of a packing: bounds what a crafted index can ask for
 _KIND = re.compile(r"[<>|][biufcS][0-9]{1,9}")
 _CHUNK = 1 << 20
+SCHEMA = 1
+_LARGEST_INDEX = 1 << 22  # bytes; 1000 packings of a shard take 0.1 MB
+_SEAL = re.compile(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})\nsha256 ([0-9a-f]{64})\n")
+_READERS = "h5py reads its arrays, and System.from_arrays takes positions, diameters and cell vectors"
 #: Arrays with a second name, as H5MD has them.
 SAME = {f"particles/spheres/box/edges/{k}": f"particles/spheres/position/{k}" for k in ("step", "time")}
+
+
+class Packing(NamedTuple):
+    """One packing: its arrays, the attributes of its groups, and texts beside the arrays, by their path in the file."""
+
+    arrays: dict[str, Array]
+    attributes: dict[str, dict[str, Any]]
+    texts: dict[str, dict[str, str]] = {}
+
+    def get(self, path: str) -> Any:
+        """A number, an array or text; of a group a dict of them. None where there is none."""
+        if path in self.arrays:
+            value: Any = self.arrays[path][()]
+            return value.decode() if isinstance(value, bytes) else value
+        names = dict.fromkeys(name[len(path) + 1 :].partition("/")[0] for name in self.arrays if name.startswith(path + "/"))
+        return {name: self.get(f"{path}/{name}") for name in names} or None
 
 
 def head_of(length: int, index: Sequence[Any], whole: str) -> bytes:
@@ -51,11 +75,11 @@ def head_of(length: int, index: Sequence[Any], whole: str) -> bytes:
 
 def type_of(text: Any) -> np.dtype[Any]:
     """A type from an index: numbers, text of fixed length, or a flat record of them."""
-    fields = [("", text)] if isinstance(text, str) else text
+    fields = [("", text)] if isinstance(text, str) else [(str(name), kind) for name, kind in text]
     for _, kind in fields:
         if not _KIND.fullmatch(kind):
             raise ValueError(f"{kind!r} is not a type of numbers or text")
-    described: Any = text if isinstance(text, str) else [(str(k), v) for k, v in text]
+    described: Any = text if isinstance(text, str) else fields
     made: np.dtype[Any] = np.dtype(described)
     if made.itemsize == 0:
         raise ValueError(f"{text!r} has no bytes")
@@ -84,93 +108,176 @@ def digest_of_rest(file: IO[bytes]) -> str:
     return found.hexdigest()
 
 
-def _put(group: Any, index: dict[str, Any]) -> list[Any]:
-    """Writes an index; returns its place, size and digest."""
-    text = json.dumps(index).encode()
-    node = group.create_dataset(INDEX, data=np.frombuffer(text, np.uint8))
-    return [int(node.id.get_offset()), len(text), digest(text)]
-
-
 def seal(file: IO[bytes], content: Packing | Iterable[tuple[str, Packing]], **attributes: Any) -> None:
-    """Writes a sealed file.
+    """Writes one packing, or many with their names, a group each, as a sealed file whose attributes are these.
 
-    Parameters
-    ----------
-    file : io.BytesIO, or a file open to be written and read
-        Takes the bytes.
-    content : Packing, or pairs of a name and a Packing
-        One packing, or many, a group each.
-    **attributes
-        Of the file as a whole.
+    The file is open to be written and read.
     """
-    writer, parts = _Writer(), {}
     with h5py.File(file, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:  # every HDF5 reads it
         inside.attrs.update(attributes)
-        index: dict[str, Any] = {"data": {}, "attributes": {}}
         if isinstance(content, Packing):
-            index = writer.write(content, inside["/"].id)
+            place = _put(inside, _write(content, inside["/"].id))
         else:
+            parts = {}
             for name, packing in content:
                 group = inside.create_group(name)
-                parts[name] = _put(group, writer.write(packing, group.id))
-        place = _put(inside, {"packings": parts} if parts else index)
+                parts[name] = _put(group, _write(packing, group.id))
+            place = _put(inside, {"packings": parts} if parts else {"data": {}, "attributes": {}})
     length, whole = file.seek(0, 2), digest_of_rest(file)
     file.seek(0)
     file.write(head_of(length, place, whole))
 
 
-class _Writer:
-    """Writes packings by the low calls of h5py: the high ones take ten times as long as libhdf5 for small arrays."""
+def _put(group: Any, index: dict[str, Any]) -> list[Any]:
+    """Writes an index; returns its place, size and digest."""
+    text = json.dumps(index, default=lambda value: value.tolist()).encode()
+    node = group.create_dataset(INDEX, data=np.frombuffer(text, np.uint8))
+    return [int(node.id.get_offset()), len(text), digest(text)]
 
-    def __init__(self) -> None:
-        self.types: dict[Any, Any] = {}
 
-    def write(self, packing: Packing, target: Any) -> dict[str, Any]:
-        """A packing into a group; returns its index: of each array place, shape, type and digest."""
-        check_names(packing.arrays)
-        groups = {"": target}
-        for path, attributes in packing.attributes.items():
-            node = self.group(groups, path)
-            for key, value in attributes.items():
-                self.attribute(node, key, value)
-        data = {}
-        for path, value in packing.arrays.items():
-            if value.dtype.hasobject:
-                raise TypeError(f"{path}: only arrays of numbers and text of fixed length are stored, not {value.dtype}")
-            inner, _, name = path.rpartition("/")
-            kind = self.type_of(value.dtype)
-            space = h5py.h5s.create_simple(value.shape) if value.shape else h5py.h5s.create(h5py.h5s.SCALAR)
-            node = h5py.h5d.create(self.group(groups, inner), name.encode(), kind, space)
-            if value.size:
-                node.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value), kind)
-            for key, words in (packing.texts.get(path) or explanation(path)).items():
-                self.attribute(node, key, words)
-            text = value.dtype.str if value.dtype.names is None else [[k, value.dtype[k].str] for k in value.dtype.names]
-            place = int(node.get_offset()) if value.nbytes else USER_BLOCK
-            data[path] = [place, list(value.shape), text, digest(value.tobytes())]
-        for path, same in SAME.items():
-            if path in data:
-                above, _, name = same.rpartition("/")
-                self.group(groups, above).links.create_hard(name.encode(), target, path.encode())
-        return {"data": data, "attributes": plain_value(packing.attributes)}
+def _write(packing: Packing, target: Any) -> dict[str, Any]:
+    """A packing into a group; returns its index. By the low calls of h5py: the high ones take ten times as long as
+    libhdf5 for small arrays."""
+    check_names(packing.arrays)
+    groups, data = {"": target}, {}
+    for path, attributes in packing.attributes.items():
+        _describe(_group(groups, path), attributes)
+    for path, value in packing.arrays.items():
+        if value.dtype.hasobject:
+            raise TypeError(f"{path}: only arrays of numbers and text of fixed length are stored, not {value.dtype}")
+        inner, _, name = path.rpartition("/")
+        kind = h5py.h5t.py_create(value.dtype, logical=True)
+        node = h5py.h5d.create(_group(groups, inner), name.encode(), kind, h5py.h5s.create_simple(value.shape))
+        if value.size:
+            node.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value), kind)
+        _describe(node, packing.texts.get(path) or explanation(path))
+        text = value.dtype.str if value.dtype.names is None else [[k, value.dtype[k].str] for k in value.dtype.names]
+        place = int(node.get_offset()) if value.nbytes else USER_BLOCK
+        data[path] = [place, list(value.shape), text, digest(value.tobytes())]
+    for path, same in SAME.items():
+        if path in data:
+            above, _, name = same.rpartition("/")
+            _group(groups, above).links.create_hard(name.encode(), target, path.encode())
+    return {"data": data, "attributes": packing.attributes}
 
-    def group(self, groups: dict[str, Any], path: str) -> Any:
-        path = "" if path == "." else path
-        if path not in groups:
-            above, _, name = path.rpartition("/")
-            groups[path] = h5py.h5g.create(self.group(groups, above), name.encode())
-        return groups[path]
 
-    def type_of(self, kind: Any) -> Any:
-        key = kind if kind.metadata is None else (kind, str(kind.metadata))
-        if key not in self.types:
-            self.types[key] = h5py.h5t.py_create(kind, logical=True)
-        return self.types[key]
+def _group(groups: dict[str, Any], path: str) -> Any:
+    if path not in groups:
+        above, _, name = path.rpartition("/")
+        groups[path] = h5py.h5g.create(_group(groups, above), name.encode())
+    return groups[path]
 
-    def attribute(self, node: Any, name: str, value: Any) -> None:
-        kind = h5py.string_dtype() if isinstance(value, str) else None
-        array = np.asarray(value, dtype=kind)
-        if array.dtype.kind == "U":  # several texts
+
+def _describe(node: Any, attributes: dict[str, Any]) -> None:
+    for name, value in attributes.items():
+        array = np.asarray(value)
+        if array.dtype.kind == "U":
             array = array.astype(h5py.string_dtype())
-        space = h5py.h5s.create_simple(array.shape) if array.shape else h5py.h5s.create(h5py.h5s.SCALAR)
-        h5py.h5a.create(node, name.encode(), self.type_of(array.dtype), space).write(array)
+        kind = h5py.h5t.py_create(array.dtype, logical=True)
+        h5py.h5a.create(node, name.encode(), kind, h5py.h5s.create_simple(array.shape)).write(array)
+
+
+def damaged(path: Any, what: str) -> StoreError:
+    """The error for a file that is not what jam wrote."""
+    text = f"{path} is damaged, or was changed by another program: {what}. Use another copy or make it again; {_READERS}"
+    return StoreError(5, text)
+
+
+@contextlib.contextmanager
+def refusing(path: Any) -> Iterator[None]:
+    """Whatever the content of a file leads to inside is one StoreError."""
+    try:
+        yield
+    except StoreError:
+        raise
+    except (KeyError, ValueError, TypeError, IndexError, AttributeError, RecursionError, OverflowError) as error:
+        raise damaged(path, f"{type(error).__name__}: {error}") from error
+    except OSError as error:
+        raise StoreError(error.errno or 5, f"{path} cannot be read: {error.strerror or error}") from error
+
+
+class _File:
+    """An open file whose seal fits. places: of each packing of a shard its index; that of a file of one has no name."""
+
+    def __init__(self, path: Any, file: IO[bytes], limit: float | None) -> None:
+        self.path, self.file, self.length = path, file, os.fstat(file.fileno()).st_size
+        # a quarter of the machine's memory, as arrays and system are made of it
+        most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 if limit is None else limit
+        if self.length > most:
+            raise StoreError(
+                27,
+                f"{path} has {self.length:.3g} bytes, at most {most:.3g} are read: give memory_limit= if the file is your own",
+            )
+        head = file.read(USER_BLOCK)
+        if not head.startswith(BEGIN):
+            raise StoreError(22, f"{path} {_what_it_is(head)}")
+        if not (found := _SEAL.search(head)):
+            raise damaged(path, "its first 512 bytes are not a seal of this version of jam")
+        place, self.whole = [int(found[1]), int(found[2]), found[3].decode()], found[4].decode()
+        if head != head_of(self.length, place, self.whole):
+            raise damaged(path, f"its seal does not fit a file of {self.length} bytes")
+        index = self.index(place)
+        self.places: dict[str | None, Any] = dict(index["packings"]) if "packings" in index else {None: index}
+
+    def read(self, what: str, at: int, size: int, expected: str) -> bytearray:
+        """Bytes whose digest is as expected."""
+        if not (isinstance(at, int) and isinstance(size, int) and 0 <= at and 0 <= size <= self.length - at):
+            raise ValueError(f"{what}: {size} bytes at {at} lie outside of the file")
+        data, _ = bytearray(size), self.file.seek(at)
+        if self.file.readinto(data) != size:  # type: ignore[attr-defined]
+            raise ValueError("the file got shorter while it was read")
+        if digest(data) != expected:
+            raise damaged(self.path, f"{what} differs from its checksum")
+        return data
+
+    def index(self, place: Sequence[Any]) -> dict[str, Any]:
+        if not 0 < place[1] <= _LARGEST_INDEX:
+            raise ValueError(f"an index of {place[1]} bytes")
+        return json.loads(bytes(self.read("the index", *place)))
+
+    def packing(self, name: str | None) -> Packing:
+        index = self.places[name] if name is None else self.index(self.places[name])
+        check_names(index["data"])
+        if sum(size_of(shape, type_of(kind)) for _, shape, kind, _ in index["data"].values()) > self.length:
+            raise ValueError("the arrays together are longer than the file")
+        arrays = {}
+        for path, (at, shape, kind, expected) in index["data"].items():
+            if not all(isinstance(k, int) and 0 <= k <= self.length for k in shape):
+                raise ValueError(f"{path} has the shape {shape}")
+            data = self.read(path, at, size_of(shape, type_of(kind)), expected)
+            arrays[path] = np.frombuffer(data, type_of(kind)).reshape(shape)
+        if name is None and digest_of_rest(self.file) != self.whole:  # later: an array that is damaged is named
+            raise damaged(self.path, "the file differs from its checksum, though its arrays are intact")
+        return Packing(arrays, index["attributes"])
+
+
+def _what_it_is(head: bytes) -> str:
+    if b"\x89HDF\r\n\x1a\n" in head:
+        return f"is HDF5 without the seal of jam: another program wrote it. {_READERS}"
+    if head.startswith(b"jamstat"):
+        return "is a checkpoint of libjam: System.from_checkpoint reads it"
+    return "is no file of System.save; System.read reads XYZ, LAMMPS and other text" if head else "is empty"
+
+
+def names_in(path: str | os.PathLike[str]) -> list[str]:
+    """Names of the packings of a shard; none of a file of one packing."""
+    with refusing(path), open_regular(path) as opened:
+        return [name for name in _File(path, opened, None).places if name is not None]
+
+
+def read_packing(
+    path: str | os.PathLike[str], name: str | None = None, memory_limit: float | None = None
+) -> Packing:
+    """A packing from its file, or by its name from a shard. For memory_limit see store.load()."""
+    with refusing(path), open_regular(path) as opened:
+        file = _File(path, opened, memory_limit)
+        if name not in file.places:
+            many = f"is a shard of {len(file.places)} packings: name one, e.g. name={[*file.places][0]!r}"
+            raise StoreError(22, f"{path} {many}" if name is None else f"{path} holds no packing {name!r}")
+        found = file.packing(name)
+        schema = found.attributes.get("jam", {}).get("schema")
+        if schema is None:
+            raise StoreError(22, f"{path} contains no packing of jam (no group `jam`)")
+        if int(schema) > SCHEMA:
+            raise StoreError(22, f"{path}: schema {schema} is newer than the schema {SCHEMA} of this jam")
+        return found

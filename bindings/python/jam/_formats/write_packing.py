@@ -1,51 +1,80 @@
-"""One packing, one HDF5 file: positions and box as H5MD, all else in the group `jam`.
+"""One packing, one HDF5 file: positions and box as H5MD, all else in the group `jam`. records.py says what each array means.
 
     h5md, particles/spheres      H5MD 1.1: box/edges as a full matrix, position as a trajectory of one frame
     particles/spheres/refined    centres as high + low, of save(refined=True)
     jam  (attributes)            schema, seed, protocol (its name), provenance; with walls container ("brick",
                                  "cylinder", "ball") and walls, one truth value an axis. Then the boundary of H5MD is
                                  "none" along closed axes, and partner -1 - w of a contact is wall w of System.walls()
-    jam/state                    bytes of a checkpoint: what dynamics depend on, velocities and random shifts among it
-    jam/diameters                (n,), unit of the box
-    jam/report                   report of the crunch, one compound value
-    jam/contacts                 pairs, vectors, gaps, forces: row k of each is the same contact
-    jam/coordination             (n,) contacts of each sphere, 0 for rattlers
-    jam/history                  steps of the crunch, a compound value a step
-    jam/protocol, jam/calls      JSON: the protocol; the calls made with every option and what ended them
+    jam/contacts                 row k of each array is the same contact
     jam/analysis                 results of the protocol's analysis by name
 
-The file is sealed (see seal.py): what is read was written by save() to the last bit, and libhdf5 does not parse it.
-Attributes beside the arrays say what they mean (see records.py).
-
-A file is made in memory, written beside under a name nobody else has, flushed to the disk, and renamed. Readers hence
-see all of a file or none of it, and a writer that is killed leaves only a file of the folder `parts`.
+The file is sealed (see seal.py), and appears whole or not at all (see replacing.py).
 """
 from __future__ import annotations
 
+import contextlib
+import functools
+import hashlib
 import io
 import json
 import os
+import platform
+import re
+import socket
 import time
-from dataclasses import is_dataclass
-from typing import Any, Callable, Mapping
+from dataclasses import astuple, is_dataclass
+from pathlib import Path
+from typing import IO, Any, Callable, Iterator, Mapping
 
 import h5py
 import numpy as np
 
 from .. import raw
+from .._api.generated import CrunchReport
 from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError, StoreError
-from .content import CONTACTS, SCHEMA, Packing
-from .provenance import provenance
-from .records import report_text, report_value
+from .records import fill, of_report
 from .replacing import MENDED, replacing, require_ending
-from .seal import seal
+from .seal import SCHEMA, Packing, read_packing, seal
+
+#: The algorithm that makes packings, named by the release that was first to have it. With protocol and seed it is what a
+#: packing of an ensemble is. It rises when one protocol and seed are meant to give another packing: another start, order of
+#: random numbers or path of the dynamics, another default of an option, a crunch that ends elsewhere as a rule. It stays
+#: where a build, a processor or a mended fault changes the last digits, or few packings. Files tell the builds apart.
+ALGORITHM = "1.0.0"
+CONTACTS = ("pairs", "vectors", "gaps", "forces")
 
 
-def _text(value: str) -> Any:
-    """Text of fixed length, which lies in one place of a file."""
-    data = value.encode()
-    return np.array(data, h5py.string_dtype("utf-8", max(1, len(data))))
+def _line(path: str, word: str) -> str:
+    """The first line of a file of the system with a word; "" where there is none."""
+    with contextlib.suppress(OSError), open(path, encoding="utf-8") as lines:
+        return next((line.strip() for line in lines if word in line), "")
+    return ""
+
+
+@functools.lru_cache(maxsize=None)
+def provenance() -> dict[str, str]:
+    """Version, commit, compiler, BLAS kernel, machine and Python of this process, and a digest of the library itself."""
+    compiler, digest = "unknown", ""
+    if library := _line("/proc/self/maps", "/libjam.so"):
+        data = Path(library.split(maxsplit=5)[5]).read_bytes()
+        if found := re.search(rb"(GCC: \([^)]*\) [\d.]+|clang version [\d.]+)", data):
+            compiler = found[0].decode()
+        digest = hashlib.sha256(data).hexdigest()[:16]
+    cpu = _line("/proc/cpuinfo", "model name").partition(":")[2].strip() or platform.machine()
+    return {
+        "version": raw.jam_version(),
+        "algorithm": ALGORITHM,
+        "commit": raw.jam_commit(),
+        "library": digest,
+        "blas_kernel": raw.jam_blas_kernel(),
+        "abi": str(raw.jam_abi_version()),
+        "compiler": compiler,
+        "machine": socket.gethostname(),
+        "processor": cpu,
+        "python": platform.python_version(),
+        "numpy": np.__version__,
+    }
 
 
 def _put(packing: Packing, path: str, value: Any) -> None:
@@ -54,35 +83,19 @@ def _put(packing: Packing, path: str, value: Any) -> None:
         for key, part in value._asdict().items():
             _put(packing, f"{path}/{key}", part)
     elif is_dataclass(value):
-        packing.arrays[path], packing.texts[path] = report_value(value), report_text(value)
+        kind, packing.texts[path] = of_report(value.__class__)
+        packing.arrays[path] = np.array(astuple(value), kind)
+    elif isinstance(value, str):  # of fixed length, which lies in one place of a file
+        data = value.encode()
+        packing.arrays[path] = np.array(data, h5py.string_dtype("utf-8", max(1, len(data))))
     elif value is not None:
-        packing.arrays[path] = _text(value) if isinstance(value, str) else np.asarray(value)
-
-
-def _h5md(made: Packing, system: Any, closed: list[bool]) -> None:
-    spheres = "particles/spheres"
-    made.attributes.update({
-        "h5md": {"version": np.array([1, 1], np.int32)},
-        "h5md/author": {"name": "unknown"},
-        "h5md/creator": {"name": "jam", "version": raw.jam_version()},
-        f"{spheres}/box": {
-            "dimension": np.int32(system.dim), "boundary": ["none" if shut else "periodic" for shut in closed],
-        },
-    })
-    made.arrays.update({
-        f"{spheres}/position/value": system.positions[None],
-        f"{spheres}/box/edges/value": system.cell[None],
-        f"{spheres}/box/edges/step": np.zeros(1, np.int64),
-        f"{spheres}/box/edges/time": np.zeros(1),
-    })
+        packing.arrays[path] = np.asarray(value)
 
 
 def _known(ask: Callable[[], Any]) -> Any:
     """A result, None for one that the packing does not have."""
-    try:
+    with contextlib.suppress(StateError):
         return ask()
-    except StateError:
-        return None
 
 
 def image(
@@ -111,14 +124,27 @@ def image(
     """
     state, packing = system._checkpointed()
     info, contacts, report = packing.info, _known(lambda: packing.contacts), _known(lambda: packing.report)
-    closed, made = closed_axes(info), Packing({}, {}, {})
-    _h5md(made, packing, closed)
+    closed, spheres = closed_axes(info), "particles/spheres"
     about = {"schema": SCHEMA, "seed": info.seed, "protocol": protocol_id, **provenance(), "written": time.time()}
-    walls = {"container": container_word(info), "walls": np.array(walls_of(info))} if any(closed) else {}
-    made.attributes.update({"jam": {**about, **(times or {}), **walls}, "jam/analysis": {}})
+    if any(closed):
+        about.update(container=container_word(info), walls=np.array(walls_of(info)))
+    made = Packing({}, {
+        "h5md": {"version": np.array([1, 1], np.int32)},
+        "h5md/author": {"name": "unknown"},
+        "h5md/creator": {"name": "jam", "version": raw.jam_version()},
+        f"{spheres}/box": {
+            "dimension": np.int32(packing.dim), "boundary": ["none" if shut else "periodic" for shut in closed],
+        },
+        "jam": {**about, **(times or {})},
+        "jam/analysis": {},
+    }, {})
     known = report is not None or contacts is not None
     parts = {
-        "particles/spheres/refined": packing.refined_positions() if refined else None,
+        f"{spheres}/position/value": packing.positions[None],
+        f"{spheres}/box/edges/value": packing.cell[None],
+        f"{spheres}/box/edges/step": np.zeros(1, np.int64),
+        f"{spheres}/box/edges/time": np.zeros(1),
+        f"{spheres}/refined": packing.refined_positions() if refined else None,
         "jam/state": np.frombuffer(state, np.uint8),
         "jam/diameters": packing.diameters,
         "jam/report": report,
@@ -143,10 +169,40 @@ def save(system: Any, path: str | os.PathLike[str], **more: Any) -> None:
     write_file(path, image(system, **more))
 
 
-def write_file(path: str | os.PathLike[str], data: bytes, parts: str | os.PathLike[str] | None = None) -> None:
-    """Writes a file so that it is there as a whole or not at all; see replacing.py."""
+def write_file(
+    path: str | os.PathLike[str], data: bytes | Callable[[IO[bytes]], Any], parts: str | os.PathLike[str] | None = None
+) -> None:
+    """Writes bytes, or what a call writes, so that the file is there as a whole or not at all; see replacing.py."""
     try:
-        with replacing(path, parts=parts) as file:
-            file.write(data)
+        with replacing(path, "w+b", parts) as file:
+            data(file) if callable(data) else file.write(data)
     except OSError as error:
-        raise StoreError(error.errno, f"{path} cannot be written: {error.strerror}. {MENDED}") from error
+        raise StoreError(error.errno or 5, f"{path} cannot be written: {error.strerror or error}. {MENDED}") from error
+
+
+def write_shard(
+    path: str | os.PathLike[str], protocol: str, packings: Mapping[str, Path | tuple[Path, str | None]]
+) -> list[str]:
+    """Writes one file of many packings, a group each, from their files by name; (file, name): from a shard.
+
+    Returns what is wrong with each file that cannot be read: it is left out.
+    """
+    left_out: list[str] = []
+
+    def found() -> Iterator[tuple[str, Packing]]:
+        for name, place in packings.items():
+            try:
+                source, inner = place if isinstance(place, tuple) else (place, None)
+                packing = read_packing(source, inner)
+            except StoreError as error:
+                left_out.append(str(error.strerror))
+                continue
+            if "jam/report" in packing.arrays:  # with the words of its enums
+                kind, text = of_report(CrunchReport)
+                report = np.zeros((), kind)
+                fill(report, packing.arrays["jam/report"])
+                packing = packing._replace(arrays={**packing.arrays, "jam/report": report}, texts={"jam/report": text})
+            yield name, packing
+
+    write_file(path, lambda file: seal(file, found(), protocol=protocol))
+    return left_out

@@ -11,11 +11,10 @@
 from .._api.shown import only
 from ..errors import StoreError
 from .ensemble import Ensemble, protocols, table
-from .entry import Entry
 from .pool import LocalPool, WorkerDied
 from .making import begin, make
 from .protocol import ProtocolError, complete, identity, minimal, packing_name, to_json
-from .rows import DamagedWarning, Status
+from .rows import DamagedWarning, Entry, Status
 
 __all__ = [
     "DamagedWarning",

@@ -1,8 +1,4 @@
-"""Making packings: what a worker does, and who hands out the work.
-
-Data flow: protocol x seed -> make_packing in a worker -> a file -> the folder, which all later calls read.
-The worker writes the file itself; only a word goes back. Bits do not depend on the executor.
-"""
+"""Making packings: what a worker does, and who hands out the work. The worker writes the file itself; only a word goes back."""
 from __future__ import annotations
 
 import contextlib
@@ -10,7 +6,7 @@ import json
 import os
 import time
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
-from typing import Any, Callable, Iterator, Mapping, Sequence
+from typing import Any, Mapping, Sequence
 
 from .. import store
 from .._formats.write_packing import write_file
@@ -24,21 +20,10 @@ ATTEMPTS = 3  # workers that may be lost over one packing before it is recorded 
 
 
 def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1, remake_damaged: bool = False) -> str:
-    """Makes one packing and its file: the call that an executor runs.
+    """Makes one packing and its file, by the complete protocol as JSON: the call that an executor runs.
 
-    Parameters
-    ----------
-    folder, protocol : str
-        Folder of the ensemble; the complete protocol as JSON.
-    attempt : int
-        How often this seed was tried, so that a scheduler takes it for a new call.
-    remake_damaged : bool
-        Makes a packing again whose file cannot be read.
-
-    Returns
-    -------
-    str
-        "done", "failed" or "damaged".
+    attempt: how often this seed was tried, so that a scheduler takes it for a new call. Returns "done", "failed" or
+    "damaged": a file that cannot be read, unless it is to be made again.
     """
     files, chosen = Folder(folder), json.loads(protocol)
     protocol_id = identity(chosen)
@@ -55,7 +40,7 @@ def make_packing(folder: str, protocol: str, seed: int, attempt: int = 1, remake
             raise
         except Exception as error:  # a failure is a result too
             status = getattr(getattr(error, "status", None), "name", type(error).__name__)
-            files.write_failure(name, protocol_id, seed, status.lower(), str(error))
+            files.write_failure(protocol_id, seed, status.lower(), str(error))
             return "failed"
         times = {"seconds_made": time.monotonic() - start, "seconds_processor": time.process_time() - cpu}
         data = store.image(system, analysis=results, protocol=protocol, protocol_id=protocol_id, times=times)
@@ -77,7 +62,7 @@ def campaign(
     protocol: Mapping[str, Any],
     seeds: Sequence[int],
     pool: Executor,
-    done_one: Callable[[], Any],
+    bar: Any,
     remake_damaged: bool,
 ) -> int:
     """Hands one call a seed to the executor and takes the answers; returns how many packings were made."""
@@ -100,28 +85,21 @@ def campaign(
                         queue.append((seed, attempt + 1))
                         continue
                     lost = f"{attempt} workers were lost over this packing; the last: {type(error).__name__}: {error}"
-                    protocol_id = identity(protocol)
-                    files.write_failure(packing_name(protocol_id, seed), protocol_id, seed, "worker_lost", lost)
-                done_one()
-    except BaseException:
+                    files.write_failure(identity(protocol), seed, "worker_lost", lost)
+                if bar is not None:
+                    bar.update()
+    finally:
         for future in pending:
             future.cancel()
-        raise
     return made
 
 
-@contextlib.contextmanager
-def progress_bar(progress: bool, total: int, done: int) -> Iterator[Callable[[], Any]]:
-    """What counts one packing: a bar by tqdm, or nothing where none is wanted or tqdm is missing."""
-    bar = None
-    if progress:
+def progress_bar(wanted: bool, total: int, done: int) -> Any:
+    """A bar by tqdm as a context, or a context of None where none is wanted or tqdm is missing."""
+    if wanted:
         with contextlib.suppress(ImportError):
             from tqdm import tqdm
 
             make_bar: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
-            bar = make_bar(total=total, initial=done, unit="packing", disable=None)
-    try:
-        yield bar.update if bar is not None else lambda: None
-    finally:
-        if bar is not None:
-            bar.close()
+            return make_bar(total=total, initial=done, unit="packing", disable=None)
+    return contextlib.nullcontext()

@@ -15,25 +15,22 @@ from .ensemble import Ensemble
 from .protocol import ProtocolError
 from .rows import Status
 
+
 def _seeds(text: str) -> list[int]:
     """1-100, 7, or several with commas: 1-100,205."""
-    found: list[int] = []
-    for part in text.split(","):
-        first, dash, last = part.partition("-")
-        try:
-            found += range(int(first), int(last if dash else first) + 1)
-        except ValueError:
-            raise argparse.ArgumentTypeError(f"{text!r} must be seeds like 1-100 or 1-100,205") from None
+    whole = re.fullmatch("[0-9]+(-[0-9]+)?(,[0-9]+(-[0-9]+)?)*", text)
+    parts = re.findall("([0-9]+)-?([0-9]*)", text if whole else "")
+    found = [seed for first, last in parts for seed in range(int(first), int(last or first) + 1)]
     if not found:
-        raise argparse.ArgumentTypeError(f"{text!r} names no seed")
+        raise argparse.ArgumentTypeError(f"{text!r} must be seeds like 1-100 or 1-100,205")
     return found
 
 
-def _part(text: str) -> tuple[int, int]:
-    found = re.fullmatch(r"([0-9]+)/([0-9]+)", text)
+def _part(text: str) -> slice:
+    found = re.fullmatch("([0-9]+)/([0-9]+)", text)
     if not found or int(found[1]) >= int(found[2]):
         raise argparse.ArgumentTypeError(f"{text!r} must be K/M with K in 0..M-1, e.g. $SLURM_ARRAY_TASK_ID/10")
-    return int(found[1]), int(found[2])
+    return slice(int(found[1]), None, int(found[2]))
 
 
 def parser() -> Parser:
@@ -44,37 +41,27 @@ def parser() -> Parser:
         "1 some failed or are missing; 2 wrong command line; 3 protocol or folder refused; 4 the folder cannot be written.",
     )
     verbs = p.add_subparsers(dest="verb", required=True)
-    for verb, text in (
-        ("run", "make the packings that are not there"),
-        ("status", "count packings and failures"),
-        ("export", "pack the packings into HDF5 files of many"),
-    ):
-        v = verbs.add_parser(verb, help=text)
-        v.add_argument("folder", metavar="DIR")
-        v.add_argument(
-            "--protocol",
-            metavar="FILE.json|NAME",
-            help="the protocol, or the name of one of DIR; default that of DIR, if it has one only",
-        )
-        v.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
-        v.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
-        if verb != "export":
-            v.add_argument("--seeds", type=_seeds, required=verb == "run", metavar="A-B", help="seeds, e.g. 1-100,205")
-        if verb == "run":
-            v.add_argument(
-                "--part", type=_part, metavar="K/M", help="only each M-th seed, from the K-th: for job arrays"
-            )
-            v.add_argument("--executor", choices=["process", "mpi", "dask"], default="process")
-            v.add_argument("--workers", type=int, help="processes of --executor process (all cores)")
-            v.add_argument("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
-            v.add_argument("--retry", action="store_true", help="also the seeds that failed before")
-            v.add_argument("--remake-damaged", action="store_true", help="also the seeds whose file cannot be read")
-            v.add_argument("--quiet", action="store_true")
-        if verb == "status":
-            v.add_argument("--json", action="store_true")
-        if verb == "export":
-            v.add_argument("target", metavar="OUT", help="folder of the shards")
-            v.add_argument("--shard", type=int, default=1000, help="packings a file (1000)")
+    run = verbs.add_parser("run", help="make the packings that are not there")
+    status = verbs.add_parser("status", help="count packings and failures")
+    export = verbs.add_parser("export", help="pack the packings into HDF5 files of many")
+    protocol = "the protocol, or the name of one of DIR; default that of DIR, if it has one only"
+    for verb in (run, status, export):
+        verb.add_argument("folder", metavar="DIR")
+        verb.add_argument("--protocol", metavar="FILE.json|NAME", help=protocol)
+        verb.add_argument("--n", type=int, help="spheres: with the default protocol instead of a file")
+        verb.add_argument("--dim", type=int, help="dimension: with the default protocol instead of a file")
+    for verb in (run, status):
+        verb.add_argument("--seeds", type=_seeds, required=verb is run, metavar="A-B", help="seeds, e.g. 1-100,205")
+    run.add_argument("--part", type=_part, metavar="K/M", help="only each M-th seed, from the K-th: for job arrays")
+    run.add_argument("--executor", choices=["process", "mpi", "dask"], default="process")
+    run.add_argument("--workers", type=int, help="processes of --executor process (all cores)")
+    run.add_argument("--scheduler", metavar="ADDRESS", help="dask scheduler, e.g. tcp://host:8786")
+    run.add_argument("--retry", action="store_true", help="also the seeds that failed before")
+    run.add_argument("--remake-damaged", action="store_true", help="also the seeds whose file cannot be read")
+    run.add_argument("--quiet", action="store_true")
+    status.add_argument("--json", action="store_true")
+    export.add_argument("target", metavar="OUT", help="folder of the shards")
+    export.add_argument("--shard", type=int, default=1000, help="packings a file (1000)")
     return p
 
 
@@ -90,30 +77,21 @@ def _ensemble(o: argparse.Namespace) -> Ensemble:
     return Ensemble(o.folder, chosen)
 
 
-def _executor(o: argparse.Namespace, stack: ExitStack) -> Any:
-    """The executor that was asked for; None for processes of this machine."""
-    if o.executor == "mpi":
-        from mpi4py.futures import MPIPoolExecutor
-
-        return stack.enter_context(MPIPoolExecutor())
-    if o.executor == "dask":
-        from distributed import Client
-
-        return stack.enter_context(Client(o.scheduler, set_as_default=False)).get_executor()
-    return None
-
-
 def _run(o: argparse.Namespace) -> Status:
-    seeds, options = o.seeds, dict(progress=not o.quiet, retry=o.retry, workers=o.workers, remake_damaged=o.remake_damaged)
-    if o.part:
-        seeds = seeds[o.part[0] :: o.part[1]]
     with ExitStack() as stack:
-        status = _ensemble(o).run(seeds, _executor(o, stack), search=o.part is None, **options)
+        ensemble = _ensemble(o)
+        pool: Any = None  # processes of this machine
+        if o.executor == "mpi":
+            from mpi4py.futures import MPIPoolExecutor
+
+            pool = stack.enter_context(MPIPoolExecutor())
+        if o.executor == "dask":
+            from distributed import Client
+
+            pool = stack.enter_context(Client(o.scheduler, set_as_default=False)).get_executor()
+        seeds, of_all = o.seeds[o.part or slice(None)], o.part is None
+        status = ensemble.run(seeds, pool, not o.quiet, o.retry, o.workers, o.remake_damaged, search=of_all)
     return status
-
-
-def _refuse(o: argparse.Namespace, code: int, text: str) -> int:
-    return refuse(code, text, o.verb == "status" and o.json)
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -127,24 +105,25 @@ def _answer(arguments: list[str] | None) -> int:
     o = p.parse(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
         p.error("--executor dask and --scheduler ADDRESS belong together")
+    as_json = o.verb == "status" and o.json
     try:
         if o.verb == "export":
             made = _ensemble(o).export(o.target, o.shard)
         else:
             status = _run(o) if o.verb == "run" else _ensemble(o).status(o.seeds)
     except StoreError as error:
-        return _refuse(o, OUTPUT, str(error))
+        return refuse(OUTPUT, str(error), as_json)
     except BrokenExecutor as error:
-        return _refuse(o, PARTIAL, f"the executor broke: {error}. What was finished is kept: run again")
+        return refuse(PARTIAL, f"the executor broke: {error}. What was finished is kept: run again", as_json)
     except KeyboardInterrupt:
-        return _refuse(o, PARTIAL, "interrupted; what was finished is kept: run again to continue")
+        return refuse(PARTIAL, "interrupted; what was finished is kept: run again to continue", as_json)
     except (ValueError, OSError, ImportError) as error:
-        return _refuse(o, REFUSED, str(error))
+        return refuse(REFUSED, str(error), as_json)
     if o.verb == "export":
         print(f"{len(made)} files in {o.target}")
         return DONE
     code = PARTIAL if status.failed or status.missing or status.damaged else DONE
-    if o.verb == "status" and o.json:
+    if as_json:
         shown = ("asked", "done", "jammed", "failed", "missing", "damaged", "odd", "builds")
         print(json_answer(code, "", **{k: getattr(status, k) for k in shown}))
     elif o.verb == "status" or not o.quiet:

@@ -1,38 +1,31 @@
-"""Packings of one protocol in a folder: making them, and reading what is there.
-
-A file that is damaged, or that holds a packing which another file holds too, is named by a DamagedWarning and by status(),
-and left out of all that is read.
-"""
+"""Packings of one protocol in a folder: making them, and reading what is there."""
 from __future__ import annotations
 
 import os
 import random
 from concurrent.futures import Executor
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
-from .._api.arrays import Array
 from .._formats.replacing import remove_abandoned
-from .._formats.shard import write_shard
+from .._formats.write_packing import write_shard
 from ..errors import StoreError
 from .campaign import campaign, lasts, progress_bar
-from .entry import Entry
-from .folder import Content, Folder, Place
+from .folder import Content, Folder
 from .pool import LocalPool
 from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
-from .rows import Status, as_table, builds_of, warn
+from .rows import Entry, Status, as_table, build_of, warn
 
 
-def readable(files: Folder, protocol: str | None = None) -> tuple[Array, list[Place]]:
-    """Packings that count, of a protocol or of all, and where each lies; a warning names the files that are left out."""
-    rows, places, damaged, doubles, _ = files.content()
-    warn([*damaged.values(), *doubles.values()])
-    mine = [k for k, name in enumerate(rows["protocol"].tolist()) if protocol in (None, name.decode())]
-    return rows[mine], [places[k] for k in mine]
+def readable(files: Folder, protocol: str | None = None) -> list[Entry]:
+    """Packings that count, of a protocol or of all; a warning names the files that are left out."""
+    content = files.content()
+    warn([*content.damaged.values(), *content.doubles.values()])
+    return [e for e in content.entries if protocol in (None, e.row["protocol"].decode())]
 
 
 class Ensemble:
@@ -80,7 +73,7 @@ class Ensemble:
         remake_damaged: bool = False,
         search: bool = True,
     ) -> Status:
-        """Makes the packings of these seeds that are not there yet.
+        """Makes the packings of these seeds that are not there yet; says what is there of them, and how many were made now.
 
         Parameters
         ----------
@@ -99,11 +92,6 @@ class Ensemble:
             False looks for the names of these seeds alone, and not through the whole folder: for many jobs that share a
             disk. It does not find files that were renamed.
 
-        Returns
-        -------
-        Status
-            What is there of these seeds, and how many were made now.
-
         Raises
         ------
         StoreError
@@ -115,20 +103,17 @@ class Ensemble:
         names = {s: self.name(s) for s in seeds}
         asked = None if search else names.values()
         content, failures = self.files.content(asked), self.files.failures(names.values())
-        there = set(content.rows["name"].tolist())
+        there = {e.row["name"] for e in content.entries}
         broken = {s for s in seeds if self.files.packing(names[s]) in content.damaged}
         left = [s for s in seeds if names[s].encode() not in there and (remake_damaged or s not in broken)]
         todo = [s for s in left if retry or names[s] not in failures or not lasts(failures[names[s]])]
         random.shuffle(todo)  # two campaigns with the same seeds then share the work
-        try:
-            with ExitStack() as stack:
-                pool = stack.enter_context(LocalPool(workers)) if executor is None else executor
-                with progress_bar(progress, len(seeds), len(seeds) - len(todo)) as done_one:
-                    made = campaign(self.files, self.protocol, todo, pool, done_one, remake_damaged)
-        finally:
+        with ExitStack() as stack:
             if executor is None:
-                with suppress(OSError):  # a worker may have been killed while it wrote
-                    remove_abandoned(self.files.parts)
+                stack.callback(remove_abandoned, self.files.parts)  # a worker may have been killed while it wrote
+                executor = stack.enter_context(LocalPool(workers))
+            bar = stack.enter_context(progress_bar(progress, len(seeds), len(seeds) - len(todo)))
+            made = campaign(self.files, self.protocol, todo, executor, bar, remake_damaged)
         content = self.files.content(asked)
         remade = [p for p in (self.files.packing(names[s]) for s in sorted(broken & set(todo))) if p not in content.damaged]
         return replace(self._status(content, seeds), made=made, remade=tuple(map(str, remade)))
@@ -136,23 +121,27 @@ class Ensemble:
     # ---- reading
     def status(self, seeds: Iterable[int] | None = None) -> Status:
         """What is there of the seeds; None: of all that were made or failed."""
-        return self._status(self.files.content(), None if seeds is None else list(dict.fromkeys(map(whole_seed, seeds))))
+        return self._status(self.files.content(), None if seeds is None else [whole_seed(s) for s in seeds])
 
     def _status(self, content: Content, seeds: list[int] | None) -> Status:
-        rows, damaged = content.rows[content.rows["protocol"] == self.id.encode()], content.damaged
-        every = seeds is None
+        entries = [e for e in content.entries if e.row["protocol"] == self.id.encode()]
+        damaged, every = content.damaged, seeds is None
         if seeds is None:
             failed = [f["seed"] for f in self.files.failures().values() if f["protocol"] == self.id]
-            seeds = list({*rows["seed"].tolist(), *failed})
-        rows = rows[np.isin(rows["seed"], seeds)]
-        left = [self.name(s) for s in set(seeds).difference(rows["seed"].tolist())]
+            seeds = [*(e.seed for e in entries), *failed]
+        wanted = set(seeds)
+        entries = [e for e in entries if e.seed in wanted]
+        left = [self.name(s) for s in wanted.difference(e.seed for e in entries)]
         if not every:
             damaged = {path: damaged[path] for path in map(self.files.packing, left) if path in damaged}
-        asked = len(seeds) + (self.files.lost(content) if every else 0)
-        jammed, odd = int((rows["jammed"] != 0).sum()), {**content.doubles, **content.odd}
-        lost = len(self.files.failures(left))  # none of a packing whose file is there, though damaged
         return Status(
-            asked, len(rows), jammed, lost, tuple(damaged.values()), tuple(odd.values()), builds=builds_of(rows)
+            asked=len(wanted) + (content.lost() if every else 0),
+            done=len(entries),
+            jammed=sum(bool(e.row["jammed"]) for e in entries),
+            failed=len(self.files.failures(left)),  # none of a packing whose file is there, though damaged
+            damaged=tuple(damaged.values()),
+            odd=(*content.doubles.values(), *content.odd.values()),
+            builds=tuple(sorted({build_of(e.row) for e in entries})),
         )
 
     def damaged(self) -> dict[Path, str]:
@@ -162,17 +151,14 @@ class Ensemble:
         return {**content.damaged, **content.doubles, **content.odd}
 
     def table(self, pandas: bool = False) -> Any:
-        """Reports of all packings of this protocol, a row each, by seed.
+        """Reports of all packings of this protocol, a row each, by seed: a numpy structured array, or a pandas.DataFrame.
 
-        Returns
-        -------
-        numpy structured array, or pandas.DataFrame
-            Fields: seed, name, protocol, version, commit and library (the build), algorithm, n, dim, the fields of CrunchReport
-            (enums as numbers, in a DataFrame as words), crystal_score, seconds_made, written. Without a crunch
-            packing_fraction and diameter_mean are those of the packing, other numbers nan or -1. Each seed has one row,
-            whatever files hold it. Files that cannot be read have none.
+        Fields: seed, name, protocol, version, commit and library (the build), algorithm, n, dim, the fields of CrunchReport
+        (enums as numbers, in a DataFrame as words), crystal_score, seconds_made, written. Without a crunch packing_fraction and
+        diameter_mean are those of the packing, other numbers nan or -1. Each seed has one row, whatever files hold it. Files
+        that cannot be read have none.
         """
-        return as_table(readable(self.files, self.id)[0], pandas)
+        return as_table(readable(self.files, self.id), pandas)
 
     def failures(self) -> list[dict[str, Any]]:
         """Records of the seeds that failed: seed, status, text, machine, time.
@@ -183,12 +169,11 @@ class Ensemble:
         return sorted(found, key=lambda f: int(f["seed"]))
 
     def __len__(self) -> int:
-        return len(readable(self.files, self.id)[0])
+        return len(readable(self.files, self.id))
 
     def __iter__(self) -> Iterator[Entry]:
         """Entries by seed."""
-        for row, place in zip(*readable(self.files, self.id)):
-            yield Entry(row, place)
+        return iter(readable(self.files, self.id))
 
     def each(self, *names: str, jammed: bool = True, max_crystal_score: float = np.inf) -> Iterator[Any]:
         """Results of one packing after the other: an array for one name, a tuple for several.
@@ -203,31 +188,25 @@ class Ensemble:
             Omits packings with more order (1 to 2 is usual for equal spheres).
         """
         for entry in self:
-            if (jammed and not entry.row["jammed"]) or entry.row["crystal_score"] > max_crystal_score:
-                continue
-            try:
-                found = entry.read(*names)
-            except StoreError as error:
-                warn([str(error.strerror)])
-                continue
-            yield found[0] if len(names) == 1 else found
+            if (entry.row["jammed"] or not jammed) and not entry.row["crystal_score"] > max_crystal_score:
+                try:
+                    found = entry.read(*names)
+                except StoreError as error:
+                    warn([str(error.strerror)])
+                else:
+                    yield found[0] if len(names) == 1 else found
 
     def export(self, folder: str | os.PathLike[str], per_shard: int = 1000) -> list[Path]:
-        """Packs the packings into HDF5 files of `per_shard` each, a group a packing; Ensemble(folder) reads them, and
-        jam.load(path, name) one.
-
-        Returns
-        -------
-        list of Path
-            The shards, in the order of seeds.
+        """Packs the packings into HDF5 files of `per_shard` each, a group a packing, in the order of seeds; Ensemble(folder) reads
+        them, and jam.load(path, name) one. Returns their paths.
         """
         target = Path(folder)
         target.mkdir(parents=True, exist_ok=True)
-        (rows, places), made = readable(self.files, self.id), []
-        for k in range(0, len(rows), per_shard):
-            names = [name.decode() for name in rows["name"][k : k + per_shard]]
+        entries, made = readable(self.files, self.id), []
+        for k in range(0, len(entries), per_shard):
             path = target / f"{self.id}-{k // per_shard:05d}.h5"
-            warn(write_shard(path, to_json(self.protocol), dict(zip(names, places[k : k + per_shard]))))
+            packings = {e.row["name"].decode(): e._place for e in entries[k : k + per_shard]}
+            warn(write_shard(path, to_json(self.protocol), packings))
             made.append(path)
         return made
 
@@ -239,4 +218,4 @@ def protocols(folder: str | os.PathLike[str]) -> dict[str, dict[str, Any]]:
 
 def table(folder: str | os.PathLike[str], pandas: bool = False) -> Any:
     """Reports of all packings of a folder, of every protocol: the table of Ensemble, whose column `protocol` names it."""
-    return as_table(readable(Folder(folder))[0], pandas)
+    return as_table(readable(Folder(folder)), pandas)

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import json
 import os
-import re
 import time
 import warnings
 from contextlib import suppress
@@ -29,33 +28,27 @@ from typing import Any, Callable, Iterable, Iterator, NamedTuple
 import numpy as np
 
 from .._api.arrays import Array
-from .._formats.content import refusing
-from .._formats.provenance import ALGORITHM, provenance
 from .._formats.replacing import remove_abandoned
-from .._formats.sealed import names_in, read_packing
-from .._formats.write_packing import write_file
+from .._formats.seal import names_in, read_packing, refusing
+from .._formats.write_packing import ALGORITHM, provenance, write_file
 from ..errors import StoreError
 from .protocol import identity, packing_name
-from .rows import ROW, DamagedWarning, key_of, read_index, row_of, write_index
+from .rows import ROW, DamagedWarning, Entry, Place, build_of, key_of, read_index, row_of, write_index
 
 LOOKED_UP = 2  # rows of the index, each time it is used
-
-
-class Place(NamedTuple):
-    """Where a packing lies: its file, and its name in a shard."""
-
-    path: Path
-    inner: str | None = None
 
 
 class Content(NamedTuple):
     """The packings of a folder."""
 
-    rows: Array  # of those that count, by seed
-    places: list[Place]  # of each row
+    entries: list[Entry]  # those that count, by seed
     damaged: dict[Path, str]  # files that cannot be read, and what is wrong with each
     doubles: dict[Path, str]  # files whose packings do not count, as others hold them
     odd: dict[Path, str]  # files that count, though they have the name of another packing
+
+    def lost(self) -> int:
+        """How many packings are in damaged files alone. A file of another name may be anything, and is none."""
+        return len({Place(path).name() for path in self.damaged} - {"", *(str(e.row["name"], "ascii") for e in self.entries)})
 
 
 class Folder:
@@ -108,7 +101,7 @@ class Folder:
                 with refusing(path):
                     for first in names_in(path)[:1]:
                         packing = read_packing(path, first)
-                        name = str(packing.jam["protocol"])
+                        name = str(packing.attributes["jam"]["protocol"])
                         found.setdefault(name, partial(_protocol, path, name, packing.get("jam/protocol")))
             except StoreError as error:  # where other files know the protocol, _places() says what is wrong with this one
                 wrong.append(error)
@@ -147,79 +140,33 @@ class Folder:
         with refusing(place.path):
             return row_of(packing)
 
-    def content(self, names: Iterable[str] | None = None) -> Content:
-        """The packings that are there: all, or those of some names and of shards."""
-        return self._content(names, read_index(self.index) if names is None else {})
-
-    def _content(self, names: Iterable[str] | None, known: dict[bytes, bytes]) -> Content:
-        """known: rows of the index. Where some that are looked up in their files differ, all are taken from the files."""
-        keys: list[bytes] = []
-        rows: list[bytes] = []
-        places: list[Place] = []
+    def content(self, names: Iterable[str] | None = None, by_index: bool = True) -> Content:
+        """The packings that are there: all, or those of some names and of shards. Some rows of the index are compared with
+        their files; where one differs, all are taken from the files."""
         damaged: dict[Path, str] = {}
+        places: dict[bytes, Place] = {}
         for place in self._places(names, damaged):
             with suppress(FileNotFoundError):  # there is none of this name, or somebody removed it meanwhile
-                key = key_of(*place)
-                try:
-                    rows.append(known.get(key) or self.row(place).tobytes())
-                    keys.append(key)
-                    places.append(place)
-                except StoreError as error:
-                    if place.path.exists():
-                        damaged[place.path] = str(error.strerror)
-        by_index = [k for k, key in enumerate(keys) if key in known]
-        for k in SystemRandom().sample(by_index, min(LOOKED_UP, len(by_index))):
+                places[key_of(*place)] = place
+        index = read_index(self.index) if names is None and by_index else {}
+        known = [key for key in places if key in index]
+        looked_up = SystemRandom().sample(known, min(LOOKED_UP, len(known)))
+        rows = {key: index[key] for key in known}
+        for key in [key for key in places if key not in index] + looked_up:
             try:
-                same = self.row(places[k]).tobytes() == rows[k]
-            except (StoreError, FileNotFoundError):  # found again, and told, by the search in all files
-                return self._content(names, {})
-            if not same:
-                text = f"{self.index} has another row for {places[k].path} than that file: rows are taken from all files"
-                warnings.warn(text, DamagedWarning, stacklevel=4)
-                return self._content(names, {})
-        there = dict(zip(keys, rows))
-        if names is None and there != known:
-            write_index(self.index, there)
-        return self._counted(np.frombuffer(b"".join(rows), ROW), places, damaged)
-
-    def _is_home(self, name: str, place: Place) -> bool:
-        """A packing has its own name, or the one that free() gave it."""
-        return place.inner is None and place.path.parent.name == name[:2] and place.path.stem.partition("-")[0] == name
-
-    def lost(self, content: Content) -> int:
-        """How many packings are in damaged files alone. A file of another name may be anything, and is none."""
-        there = {name.decode() for name in content.rows["name"]}
-        names = [path.stem.partition("-")[0] for path in content.damaged if self._is_home(path.stem[:32], Place(path, None))]
-        return len({name for name in names if re.fullmatch("[0-9a-f]{32}", name)} - there)
-
-    def _counted(self, rows: Array, places: list[Place], damaged: dict[Path, str]) -> Content:
-        """One packing for each protocol and seed: of this library's algorithm, under its own name, the oldest."""
-        homes = [self._is_home(name.decode(), place) for name, place in zip(rows["name"], places)]
-        order = sorted(
-            range(len(rows)),
-            key=lambda k: (rows["algorithm"][k] != ALGORITHM.encode(), not homes[k], rows["written"][k], str(places[k])),
-        )
-        claims: dict[tuple[int, bytes], list[int]] = {}
-        for k in order:
-            claims.setdefault((int(rows["seed"][k]), rows["protocol"][k]), []).append(k)
-        kept = [claims[claim][0] for claim in sorted(claims)]
-        others: dict[Path, list[tuple[int, int]]] = {}  # each packing of a file that does not count, with the one that does
-        for first, *rest in claims.values():
-            for k in rest:
-                others.setdefault(places[k].path, []).append((k, first))
-        doubles = {}
-        for path, pairs in others.items():
-            ours, theirs = (rows[k] for k in pairs[0])
-            more = f" and {len(pairs) - 1} more, which other files hold too" if len(pairs) > 1 else ""
-            builds = "" if _build(ours) == _build(theirs) else f"; made by {_build(ours)} and by {_build(theirs)}"
-            text = f"{path} holds {_what(ours)}, as {places[pairs[0][1]].path} does, which counts{more}{builds}"
-            doubles[path] = text
-        odd = {
-            places[k].path: f"{places[k].path} has another name than {_what(rows[k])}, which it holds"
-            for k in kept
-            if not homes[k] and places[k].inner is None
-        }
-        return Content(rows[kept], [places[k] for k in kept], damaged, doubles, odd)
+                rows[key] = self.row(places[key]).tobytes()
+            except StoreError as error:
+                rows.pop(key, None)
+                if places[key].path.exists():
+                    damaged[places[key].path] = str(error.strerror)
+            if key in index and rows.get(key) != index[key]:
+                if key in rows:
+                    text = f"{self.index} has another row for {places[key].path} than that file: rows are taken from all files"
+                    warnings.warn(text, DamagedWarning, stacklevel=3)
+                return self.content(names, by_index=False)
+        if names is None and rows != index:
+            write_index(self.index, rows)
+        return _counted([Entry(row, places[key]) for key, row in zip(rows, np.frombuffer(b"".join(rows.values()), ROW))], damaged)
 
     # ---- failures
     def failures(self, names: Iterable[str] | None = None) -> dict[str, dict[str, Any]]:
@@ -243,19 +190,41 @@ class Folder:
             found.setdefault(name, record)
         return {name: record for name, record in found.items() if not self.packing(name).exists()}
 
-    def write_failure(self, name: str, protocol_id: str, seed: int, status: str, text: str) -> None:
+    def write_failure(self, protocol_id: str, seed: int, status: str, text: str) -> None:
         record = {"seed": seed, "protocol": protocol_id, "status": status, "text": text, "time": time.time()}
         data = json.dumps({**record, **provenance()}, indent=2).encode() + b"\n"
-        write_file(self.failure(name), data, self.parts)
+        write_file(self.failure(packing_name(protocol_id, seed)), data, self.parts)
 
 
-def _what(row: Any) -> str:
-    return f"the packing of seed {row['seed']} of protocol {row['protocol'].decode()}"
+def _counted(entries: list[Entry], damaged: dict[Path, str]) -> Content:
+    """One packing for each seed and protocol: of this library's algorithm, under its own name, the oldest."""
 
+    def claim(e: Entry) -> tuple[int, bytes]:
+        return int(e.row["seed"]), e.row["protocol"]
 
-def _build(row: Any) -> str:
-    version, commit, library, algorithm = (row[k].decode() for k in ("version", "commit", "library", "algorithm"))
-    return f"{version} commit {commit or 'unknown'} library {library or 'unknown'} (algorithm {algorithm})"
+    def renamed(e: Entry) -> bool:
+        return e._place.name() != e.row["name"].decode()
+
+    def what(e: Entry) -> str:
+        return f"the packing of seed {e.seed} of protocol {e.row['protocol'].decode()}"
+
+    kept: list[Entry] = []
+    others: dict[Path, list[tuple[Entry, Entry]]] = {}  # each packing of a file that does not count, with the one that does
+    mine = ALGORITHM.encode()
+    rank = lambda e: (claim(e), e.row["algorithm"] != mine, renamed(e), e.row["written"], str(e._place))
+    for e in sorted(entries, key=rank):
+        if kept and claim(e) == claim(kept[-1]):
+            others.setdefault(e.path, []).append((e, kept[-1]))
+        else:
+            kept.append(e)
+    doubles = {}
+    for path, pairs in others.items():
+        more = f" and {len(pairs) - 1} more, which other files hold too" if len(pairs) > 1 else ""
+        ours, theirs = (f"{build_of(e.row)} (algorithm {e.row['algorithm'].decode()})" for e in pairs[0])
+        builds = "" if ours == theirs else f"; made by {ours} and by {theirs}"
+        doubles[path] = f"{path} holds {what(pairs[0][0])}, as {pairs[0][1].path} does, which counts{more}{builds}"
+    odd = [e for e in kept if renamed(e) and e._place.inner is None]
+    return Content(kept, damaged, doubles, {e.path: f"{e.path} has another name than {what(e)}, which it holds" for e in odd})
 
 
 def _protocol(path: Path, name: str, text: str | None = None) -> dict[str, Any]:

@@ -21,6 +21,8 @@ def sizes_of_law(law: Any, n: int, dim: int, seed: int) -> Array | None:
     if law is None or isinstance(law, list):
         return None if law is None else np.array(law)
     if law["law"] == "bidisperse":
+        if not all(isinstance(law[k], float) for k in ("ratio", "share")) or not (law["ratio"] > 0 and 0 < law["share"] < 1):
+            raise ValueError("bidisperse takes a ratio > 0 and a share in (0, 1)")
         return np.where(np.arange(n) < round(law["share"] * n), 1.0, law["ratio"])
     fields: dict[str, Any] = {"draw": "random", "seed": seed, **{k: v for k, v in law.items() if k != "law"}}
     return draw_sizes(str(law["law"]), n, dim=dim, **fields)
@@ -40,34 +42,27 @@ def _fcc(n: int, box: float) -> Array:
 
 def begin(protocol: Mapping[str, Any], seed: int) -> System:
     """The start of a complete protocol."""
-    given = {k: v for k, v in protocol["start"].items() if k != "lattice"}
+    given = dict(protocol["start"])
+    lattice, law = given.pop("lattice"), given.pop("diameters")
     scene = {k: given.pop(k, None) for k in SCENE}
-    sizes = sizes_of_law(given.pop("diameters"), given["n"], given["dim"], seed)
-    if protocol["start"]["lattice"] is None:
+    sizes = sizes_of_law(law, given["n"], given["dim"], seed)
+    if lattice is None:
         if scene["cell"] is not None:
             del given["box"]
         return System.random(seed=seed, diameters=sizes, **given, **scene)
-    soft = given.pop("overlap", "refuse") == "allow"
+    overlap = "allow" if given.pop("overlap", "refuse") == "allow" else "shrink"
     n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
-    law = protocol["start"]["diameters"]
     ordered = isinstance(law, dict) and (law["law"] == "bidisperse" or law.get("draw") == "quantiles")
     sizes = np.ones(n) if sizes is None else _shuffled(sizes, seed) if ordered else sizes
     unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
-    return System.from_arrays(
-        _fcc(n, box), sizes * (phi * box**dim / unit.sum()) ** (1 / dim), box, seed=seed, overlap="allow" if soft else "shrink", **given
-    )
+    sizes = sizes * (phi * box**dim / unit.sum()) ** (1 / dim)
+    return System.from_arrays(_fcc(n, box), sizes, box, seed=seed, overlap=overlap, **given)
 
 
 def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]]:
-    """Makes one packing.
+    """Makes one packing, also when it is not jammed, as its report says; and results of the analysis by name.
 
-    Returns
-    -------
-    System
-        The packing, also when it is not jammed: its report says so.
-    dict
-        Results of the analysis by name. A call that this packing cannot answer, such as one that needs a jammed network, gives
-        its error's text.
+    A call that this packing cannot answer, such as one that needs a jammed network, gives its error's text.
     """
     system = begin(protocol, seed)
     for stage in protocol["stages"]:

@@ -15,8 +15,9 @@ import copy
 import hashlib
 import inspect
 import json
+from contextlib import contextmanager, suppress
 from difflib import get_close_matches
-from typing import Any, Mapping, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -25,12 +26,11 @@ from .._api import generated
 from .._api.generated import GROWTH_STAGES, OPTIONS, Container
 from .._api.given import cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out
-from .._formats.provenance import ALGORITHM
+from .._formats.write_packing import ALGORITHM
 from ..system import System
 from .making import SCENE, begin, sizes_of_law
 
 PARTS = ("start", "stages", "crunch", "analysis")
-LATTICES = ("fcc",)
 #: Laws of diameters and what they take by default; besides these, every law of jam.sizes.
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
 #: Growth that avoids crystals: fast through the fluid, slower in the glass, as of System.compress().
@@ -43,25 +43,28 @@ _CHECKED = ("model", "non_additivity", "overlap")  # of what the scene allows, b
 _OF_A_DRAW = {"dim", "n", "seed", "cell_volume", "packing_fraction"}  # what start and seed say
 _TRIED, _MOST_TRIED = (1, 2, 3), 4096  # seeds of starts, of so many spheres, that are made to see whether any has room
 _NOT_IN_START = ("seed",)  # the packing's own
-#: What a stage takes beside the options of its verb.
-_OF_STAGE: dict[str, dict[str, Any]] = {"shear": {"to": None, "mode": None, "stress": None}}
+_OF_SHEAR = ("to", "mode", "stress")  # what this stage takes beside the options of its verb
 
 
 class ProtocolError(ValueError):
     """A protocol that cannot be run; the text names the entry and says what is allowed."""
 
 
-def _options(struct: str, given: Mapping[str, Any], where: str, leave_out: tuple[Any, ...] = ()) -> dict[str, Any]:
-    """All options of a struct, those that are not given at the library's defaults."""
-    known = {k: v[0] for k, v in OPTIONS[struct].items() if k not in leave_out}
-    if unknown := set(given) - set(known):
-        raise ProtocolError(f"{where}: unknown {', '.join(sorted(unknown))}; there are {', '.join(known)}")
-    numbers = {k: float(v) if known[k] == "float" and v is not None else v for k, v in given.items()}
+@contextmanager
+def _entry(where: str) -> Iterator[None]:
+    """What is wrong inside is a ProtocolError that names the entry."""
     try:
-        made = option_struct(struct, numbers)
-    except (TypeError, ValueError) as error:
+        yield
+    except (errors.JamError, TypeError, ValueError) as error:
         raise ProtocolError(f"{where}: {error}") from None
-    return {k: v for k, v in spelled_out(made, struct).items() if k in known}
+
+
+def _options(struct: str, given: Mapping[str, Any], leave_out: tuple[Any, ...] = ()) -> dict[str, Any]:
+    """All options of a struct, those that are not given at the library's defaults."""
+    known = [k for k in OPTIONS[struct] if k not in leave_out]
+    if unknown := set(given) - set(known):
+        raise ProtocolError(f"unknown {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    return {k: v for k, v in spelled_out(option_struct(struct, dict(given)), struct).items() if k in known}
 
 
 def _diameters(given: Any, n: int, dim: int) -> Any:
@@ -70,63 +73,45 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
     if not isinstance(given, Mapping):
         sizes = np.asarray(given, float)
         if sizes.shape != (n,) or not (np.isfinite(sizes) & (sizes > 0)).all():
-            raise ProtocolError(f"start: diameters must be {n} finite numbers > 0, a law, or None")
+            raise ProtocolError(f"diameters must be {n} finite numbers > 0, a law, or None")
         return sizes.tolist()
     law = {k: float(v) if isinstance(v, (int, float)) else v for k, v in given.items()}
     law = {"law": law.pop("law", None), **LAWS.get(str(given.get("law")), {}), **law}
+    known, text = {*OPTIONS["jam_diameters_options"], "curve"} - _OF_A_DRAW, "no law has {}; there are {}"
     if law["law"] == "bidisperse":
-        if unknown := set(law) - {"law", *LAWS["bidisperse"]}:
-            raise ProtocolError(f"start: diameters: bidisperse has no {', '.join(sorted(unknown))}; it takes ratio and share")
-        if not all(isinstance(v, float) for k, v in law.items() if k != "law") or not (law["ratio"] > 0 and 0 < law["share"] < 1):
-            raise ProtocolError(f"start: diameters {dict(given)!r}: bidisperse takes a ratio > 0 and a share in (0, 1)")
-        return law
-    known = {"law", *OPTIONS["jam_diameters_options"], "curve"} - _OF_A_DRAW
-    if unknown := set(law) - known:
-        raise ProtocolError(f"start: diameters: no law has {', '.join(sorted(unknown))}; there are {', '.join(sorted(known))}")
-    try:
+        known, text = set(LAWS["bidisperse"]), "bidisperse has no {}; it takes {}"
+    if unknown := set(law) - known - {"law"}:
+        raise ProtocolError("diameters: " + text.format(", ".join(sorted(unknown)), " and ".join(sorted(known))))
+    with _entry(f"diameters {dict(given)!r}"):
         sizes_of_law(law, n, dim, 1)
-    except (errors.JamError, TypeError, ValueError) as error:
-        raise ProtocolError(f"start: diameters {dict(given)!r}: {error}") from None
     return law
 
 
-def _scene(rest: dict[str, Any]) -> dict[str, Any]:
-    """Takes cell, walls and container out: vectors or None, truth values of the axes or None, a word."""
-    cell, walls, container = (rest.pop(key, None) for key in SCENE)
-    try:
-        side, vectors = cell_of(rest.get("box"), cell, rest["dim"])
-        kind, flat = enclosure_of(container, walls, rest["dim"])
-    except (TypeError, ValueError) as error:
-        raise ProtocolError(f"start: {error}") from None
-    rest["box"] = side
-    axes = [bool(flat >> c & 1) for c in range(rest["dim"])] if flat else None
-    return {"cell": None if vectors is None else vectors.tolist(), "walls": axes, "container": Container(kind).name.lower()}
-
-
 def _start(given: Mapping[str, Any]) -> dict[str, Any]:
-    rest = dict(given)
+    rest: dict[str, Any] = {"n": 1024, "dim": 3, **given}
     lattice, sizes = rest.pop("lattice", None), rest.pop("diameters", None)
-    rest.setdefault("n", 1024)
-    rest.setdefault("dim", 3)
-    scene = _scene(rest)
-    made = _options("jam_create_options", rest, "start", _NOT_IN_START)
-    try:
-        System.random(1, made["dim"], packing_fraction=_FEW, **{k: made[k] for k in _CHECKED}, **scene)  # the library checks the scene
-        if made["packing_fraction"] == 0:  # the library's own, spelled out
-            made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
-    except errors.JamError as error:
-        raise ProtocolError(f"start: {error}") from None
+    cell, walls, container = (rest.pop(key, None) for key in SCENE)
+    rest["box"], vectors = cell_of(rest.get("box"), cell, rest["dim"])
+    kind, flat = enclosure_of(container, walls, rest["dim"])
+    scene: dict[str, Any] = {  # vectors or None, truth values of the axes or None, a word
+        "cell": None if vectors is None else vectors.tolist(),
+        "walls": [bool(flat >> c & 1) for c in range(rest["dim"])] if flat else None,
+        "container": Container(kind).name.lower(),
+    }
+    made = _options("jam_create_options", rest, _NOT_IN_START)
+    System.random(1, made["dim"], packing_fraction=_FEW, **{k: made[k] for k in _CHECKED}, **scene)  # the library checks the scene
+    if made["packing_fraction"] == 0:  # the library's own, spelled out
+        made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
     if made["overlap"] == "shrink":
-        raise ProtocolError("start: overlap is 'refuse' (hard spheres) or 'allow' (soft ones)")
+        raise ProtocolError("overlap is 'refuse' (hard spheres) or 'allow' (soft ones)")
     if made["n"] < 1:
-        raise ProtocolError(f"start: n = {made['n']} must be >= 1")
-    if lattice is not None:
-        if lattice not in LATTICES:
-            raise ProtocolError(f"start: lattice {lattice!r} is none of {', '.join(LATTICES)}")
-        if made["dim"] != 3 or round((made["n"] / 4) ** (1 / 3)) ** 3 * 4 != made["n"]:
-            raise ProtocolError(f"start: an fcc lattice needs dim 3 and n = 4 m^3, not {made['dim']} and {made['n']}")
-        if scene != SCENE:
-            raise ProtocolError("start: an fcc lattice fills a cube without walls: leave out cell, walls and container")
+        raise ProtocolError(f"n = {made['n']} must be >= 1")
+    if lattice not in (None, "fcc"):
+        raise ProtocolError(f"lattice {lattice!r} is none of fcc")
+    if lattice and (made["dim"] != 3 or round((made["n"] / 4) ** (1 / 3)) ** 3 * 4 != made["n"]):
+        raise ProtocolError(f"an fcc lattice needs dim 3 and n = 4 m^3, not {made['dim']} and {made['n']}")
+    if lattice and scene != SCENE:
+        raise ProtocolError("an fcc lattice fills a cube without walls: leave out cell, walls and container")
     return {**made, **scene, "diameters": _diameters(sizes, made["n"], made["dim"]), "lattice": lattice}
 
 
@@ -140,28 +125,26 @@ def _check_room(start: Mapping[str, Any]) -> None:
         except errors.JamError as one:
             error = one
     if error is not None:
-        raise ProtocolError(f"start: no packing of seeds {', '.join(map(str, _TRIED))} can begin: {error}")
+        raise ProtocolError(f"no packing of seeds {', '.join(map(str, _TRIED))} can begin: {error}")
 
 
-def _stage(given: Mapping[str, Any] | Sequence[float], number: int) -> dict[str, Any]:
+def _stage(given: Mapping[str, Any] | Sequence[float]) -> dict[str, Any]:
     """A stage: options with its verb, or as in System.compress a pair (growth_rate, pressure)."""
     if not isinstance(given, Mapping):
         try:
             growth_rate, pressure = (float(x) for x in given)
         except (TypeError, ValueError):
-            raise ProtocolError(
-                f"stages[{number}]: {given!r} is neither a pair (growth_rate, pressure) nor a dict of options"
-            ) from None
-        given = {"verb": "compress", "growth_rate": growth_rate, "pressure": pressure}
+            raise ProtocolError(f"{given!r} is neither a pair (growth_rate, pressure) nor a dict of options") from None
+        given = {"growth_rate": growth_rate, "pressure": pressure}
     rest = dict(given)
     verb = rest.pop("verb", "compress")
     struct = f"jam_{verb}_options"
     if struct not in OPTIONS or not hasattr(System, verb) or verb in ("crunch", "observe", "hessian", "modes"):
         verbs = [s[4:-8] for s in OPTIONS if hasattr(System, s[4:-8])]
-        raise ProtocolError(f"stages[{number}]: no stage is called {verb!r}; calls with options are {', '.join(verbs)}")
-    own = {k: rest.pop(k, v) for k, v in _OF_STAGE.get(verb, {}).items()}
+        raise ProtocolError(f"no stage is called {verb!r}; calls with options are {', '.join(verbs)}")
+    own = {k: rest.pop(k, None) for k in (_OF_SHEAR if verb == "shear" else ())}
     own = {k: v if v is None else np.asarray(v, float).tolist() for k, v in own.items()}
-    return {"verb": verb, **own, **_options(struct, rest, f"stages[{number}]", ("resume",))}
+    return {"verb": verb, **own, **_options(struct, rest, ("resume",))}
 
 
 _OF_SOFT = ("relax", "decompress", "shear")  # stages of spheres that overlap
@@ -169,68 +152,54 @@ _OF_PYTHON = ("crystal_score",)  # analyses that are no call of C
 
 
 def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    where = f"analysis[{name!r}]"
     method = getattr(System, name, None)
     known = "jam_" + name in generated.CALLS or name in _OF_PYTHON
     if name.startswith("_") or not callable(method) or not known:
         near = get_close_matches(name, [n for n in dir(System) if "jam_" + n in generated.CALLS] + list(_OF_PYTHON))
         there = f"; near to it: {', '.join(near)}" if near else ""
-        raise ProtocolError(f"{where}: no method of System, such as gaps or rigidity, has this name{there}")
-    made = {}
-    for parameter in list(inspect.signature(method).parameters.values())[1:]:
-        key = parameter.name
-        if parameter.kind is parameter.VAR_KEYWORD:
-            made.update({k: v for k, v in given.items() if k not in made})
-        elif key != "progress":
-            if key not in given and parameter.default is parameter.empty:
-                raise ProtocolError(f"{where} needs {key}")
-            made[key] = given.get(key, None if parameter.default is parameter.empty else parameter.default)
-    if unknown := set(given) - set(made):
-        raise ProtocolError(f"{where}: unknown {', '.join(sorted(unknown))}; there are {', '.join(made)}")
-    return made
+        raise ProtocolError(f"no method of System, such as gaps or rigidity, has this name{there}")
+    takes = [p for p in list(inspect.signature(method).parameters.values())[1:] if p.name != "progress"]
+    try:
+        call = inspect.Signature(takes).bind(**given)
+    except TypeError as error:
+        raise ProtocolError(f"{error}; there are {', '.join(p.name for p in takes)}") from None
+    call.apply_defaults()
+    options = call.arguments.pop("options", {})
+    return {**call.arguments, **options}
 
 
 def _check_calls(made: Mapping[str, Any]) -> None:
     """Calls that the scene or model refuses, such as a free cell between walls: asked of two spheres that have no time."""
     start = made["start"]
-    scene = {k: start[k] for k in SCENE}
-    two = System.random(2, start["dim"], packing_fraction=_FEW, **{k: start[k] for k in _CHECKED}, **scene)
+    scene = {k: start[k] for k in (*SCENE, *_CHECKED)}
+    two = System.random(2, start["dim"], packing_fraction=_FEW, **scene)
     calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
     if made["crunch"] is not None:
         calls.append(("crunch", {"verb": "crunch", **made["crunch"]}))
     soft = overlapping = start["overlap"] == "allow"  # else only soft Monte Carlo makes overlaps
     for where, call in calls:
-        options = dict(call)
+        options = dict(call, wall_time=_NO_TIME)
         verb = options.pop("verb")
-        if verb in ("relax", "decompress") and not soft:
-            raise ProtocolError(f"{where}: {verb} needs overlaps: start with overlap='allow', or by Monte Carlo with alpha")
         soft_moves = verb == "monte_carlo" and options["alpha"] > 0
-        if overlapping and not soft_moves and verb not in _OF_SOFT:
-            raise ProtocolError(f"{where}: {verb} is for hard spheres, and these overlap: put decompress before it, or crunch=None")
+        with _entry(where), suppress(*_OF_TWO_SPHERES):
+            if verb in ("relax", "decompress") and not soft:
+                raise ProtocolError(f"{verb} needs overlaps: start with overlap='allow', or by Monte Carlo with alpha")
+            if overlapping and not soft_moves and verb not in _OF_SOFT:
+                raise ProtocolError(f"{verb} is for hard spheres, and these overlap: put decompress before it, or crunch=None")
+            if verb == "shear" and options["to"] is None:
+                raise ProtocolError("shear needs to, its last strain")
+            getattr(two, verb)(**options)
         soft = soft or soft_moves
-        overlapping = soft_moves or (soft and verb == "shear") or (overlapping and verb not in _OF_SOFT)
-        if verb == "shear" and options["to"] is None:
-            raise ProtocolError(f"{where}: shear needs to, its last strain")
-        try:
-            getattr(two, verb)(**{**options, "wall_time": _NO_TIME})
-        except _OF_TWO_SPHERES:
-            pass
-        except errors.JamError as error:
-            raise ProtocolError(f"{where}: {error}") from None
+        overlapping = soft_moves or (soft and verb == "shear")
 
 
 def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """A protocol with every default spelled out.
+    """A protocol with every default spelled out: plain numbers, text, lists and dicts, as in JSON; infinity is the text "inf".
 
     Parameters
     ----------
     protocol : mapping
         Any of `start`, `stages`, `crunch`, `analysis`. Entries of `start` may also be given at the top level: ``dict(n=128, dim=3)``.
-
-    Returns
-    -------
-    dict
-        Plain numbers, text, lists and dicts, as in JSON; infinity is the text "inf".
 
     Raises
     ------
@@ -238,25 +207,28 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
         Names the entry that is wrong and what is allowed there.
     """
     given = copy.deepcopy(dict(protocol or {}))
-    start = dict(given.get("start") or {})
+    start, crunch = dict(given.get("start") or {}), given.get("crunch", {})
     for key in [k for k in given if k not in PARTS]:
         if key in start:
             raise ProtocolError(f"{key} is given twice, at the top and in start")
         start[key] = given[key]
-    crunch = given.get("crunch", {})
-    begun = _start(start)
-    made = {
-        "start": begun,
-        "stages": [_stage(s, k) for k, s in enumerate(given.get("stages", STAGES))],
-        "crunch": None if crunch is None else _options("jam_crunch_options", crunch, "crunch"),
-        "analysis": {k: _analysis(k, v or {}) for k, v in (given.get("analysis", ANALYSIS) or {}).items()},
-    }
+    made: dict[str, Any] = {"start": None, "stages": [], "crunch": None, "analysis": {}}
+    with _entry("start"):
+        made["start"] = _start(start)
+    for k, stage in enumerate(given.get("stages", STAGES)):
+        with _entry(f"stages[{k}]"):
+            made["stages"].append(_stage(stage))
+    if crunch is not None:
+        with _entry("crunch"):
+            made["crunch"] = _options("jam_crunch_options", crunch)
+    for name, options in (given.get("analysis", ANALYSIS) or {}).items():
+        with _entry(f"analysis[{name!r}]"):
+            made["analysis"][name] = _analysis(name, options or {})
     _check_calls(made)
-    _check_room(begun)
-    try:
+    with _entry("start"):
+        _check_room(made["start"])
+    with _entry("the protocol cannot be written as JSON"):
         return json.loads(to_json(made))
-    except (TypeError, ValueError) as error:
-        raise ProtocolError(f"the protocol cannot be written as JSON: {error}") from None
 
 
 def to_json(protocol: Mapping[str, Any]) -> str:
@@ -273,8 +245,8 @@ def minimal(protocol: Mapping[str, Any]) -> dict[str, Any]:
     crunch, stages = protocol["crunch"], protocol["stages"]
     return {
         "start": _changed(protocol["start"], _start({})),
-        "stages": [{"verb": s["verb"], **_changed(s, _stage({"verb": s["verb"]}, 0))} for s in stages],
-        "crunch": None if crunch is None else _changed(crunch, _options("jam_crunch_options", {}, "crunch")),
+        "stages": [{"verb": s["verb"], **_changed(s, _stage({"verb": s["verb"]}))} for s in stages],
+        "crunch": None if crunch is None else _changed(crunch, _options("jam_crunch_options", {})),
         "analysis": {k: _changed(v, dict.fromkeys(v)) for k, v in protocol["analysis"].items()},
     }
 

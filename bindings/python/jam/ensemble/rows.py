@@ -1,9 +1,9 @@
-"""Rows of an ensemble's table: what one packing is and how its crunch ended, taken from its file; as numpy, pandas and bytes. And
-what there is of an ensemble in numbers, with the warning of what cannot be read.
+"""The packings of an ensemble: rows of the table, which say what each is and how its crunch ended; entries, which read more;
+and what there is in numbers, with the warning of what cannot be read.
 
 index.bin in an ensemble's folder has the rows, each by a digest of its file's place, size and time of change. It only saves
-time. It may be anybody's: it is read as bytes of fixed length behind their checksum, and a row counts only for the file that
-its digest names. Some rows are compared with their files each time (folder.py).
+time, and may be anybody's: it is bytes of fixed length behind their checksum, and a row counts only for the file that its
+digest names. Some rows are compared with their files each time (folder.py).
 """
 from __future__ import annotations
 
@@ -11,29 +11,32 @@ import contextlib
 import hashlib
 import math
 import os
+import re
 import warnings
 from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Any, Iterable, Mapping
+from typing import Any, Iterable, Mapping, NamedTuple
 
 import numpy as np
 
+from .. import store
 from .._api.arrays import Array
 from .._api.generated import CrunchReport
-from .._formats.content import Packing
-from .._formats.records import dtype_of, enum_of, unknown
+from .._api.results import Contacts
+from .._formats.records import enum_of, fill, of_report
 from .._formats.replacing import open_regular
+from .._formats.seal import Packing, read_packing
 from .._formats.write_packing import write_file
+from ..system import System
 from .protocol import packing_name
 
-_REPORT = dtype_of(CrunchReport)
-_REPORT_FIELDS: tuple[str, ...] = _REPORT.names or ()
+_REPORT = of_report(CrunchReport)[0]
 #: What distinguishes packings, the report of the crunch, and the crystal score (nan: not asked for).
 ROW = np.dtype(
     [
         *[("seed", "i8"), ("name", "S32"), ("protocol", "S12"), ("version", "S24")],
         *[("commit", "S12"), ("library", "S16"), ("algorithm", "S12"), ("n", "i4"), ("dim", "i4")],
-        *[(k, _REPORT[k]) for k in _REPORT_FIELDS],
+        *[(k, _REPORT[k].str) for k in _REPORT.names or ()],
         *[("crystal_score", "f8"), ("seconds_made", "f8"), ("written", "f8")],
     ]
 )
@@ -42,61 +45,140 @@ FIELDS: tuple[str, ...] = ROW.names or ()
 
 def row_of(packing: Packing) -> Array:
     """The row of a packing. Its name follows from protocol, seed and algorithm, not from the file's."""
-    made, arrays, attributes = np.zeros((), ROW), packing.arrays, packing.jam
-    for key in ("seed", "protocol", "version", "written"):
-        made[key] = attributes[key]
     # 1.0.0 wrote no algorithm, and was the first; older files have no builds
-    for key, absent in (("algorithm", "1.0.0"), ("commit", ""), ("library", ""), ("seconds_made", np.nan)):
-        made[key] = attributes.get(key, absent)
-    algorithm = str(attributes.get("algorithm", "1.0.0"))
-    made["name"] = packing_name(attributes["protocol"], attributes["seed"], algorithm)
+    jam: dict[str, Any] = {"algorithm": "1.0.0", "commit": "", "library": "", "seconds_made": np.nan, **packing.attributes["jam"]}
+    made, arrays = np.zeros((), ROW), packing.arrays
+    fill(made, arrays.get("jam/report"))
+    for key in ("seed", "protocol", "version", "written", "algorithm", "commit", "library", "seconds_made"):
+        made[key] = jam[key]
+    made["name"] = packing_name(jam["protocol"], jam["seed"], str(jam["algorithm"]))
     sigma, cell = arrays["jam/diameters"], arrays["particles/spheres/box/edges/value"][0]
-    made["n"], made["dim"] = len(sigma), len(cell)
-    for f in fields(CrunchReport):
-        made[f.name] = unknown(str(f.type))
-    ball = math.pi ** (len(cell) / 2) / math.gamma(len(cell) / 2 + 1) / 2 ** len(cell)
-    made["packing_fraction"] = ball * (sigma ** len(cell)).sum() / abs(np.linalg.det(cell))
-    made["diameter_mean"] = sigma.mean()
-    if "jam/report" in arrays:
-        report = arrays["jam/report"]
-        for key in set(_REPORT_FIELDS) & set(report.dtype.names or ()):
-            made[key] = report[key]
+    made["n"], made["dim"], dim = len(sigma), len(cell), len(cell)
+    if "jam/report" not in arrays:
+        ball = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) / 2**dim
+        made["packing_fraction"] = ball * (sigma**dim).sum() / abs(np.linalg.det(cell))
+        made["diameter_mean"] = sigma.mean()
     score = arrays.get("jam/analysis/crystal_score")
     made["crystal_score"] = np.nan if score is None or score.dtype.kind != "f" else score[()]
     return made
 
 
-def builds_of(rows: Array) -> tuple[str, ...]:
-    """The builds of libjam that made the packings of a table: version, commit, digest of the library."""
-    found = np.unique(rows[["version", "commit", "library"]])
-    return tuple(
-        " ".join(f"{word} {part.decode()}".strip() for word, part in zip(("", "commit", "library"), row) if part)
-        for row in found
-    )
+def build_of(row: Any) -> str:
+    """The build of libjam that made a packing: version, commit, digest of the library."""
+    parts = {"": row["version"], "commit ": row["commit"], "library ": row["library"]}
+    return " ".join(word + part.decode() for word, part in parts.items() if part)
 
 
-#: Enum of each field of the table that has one.
-ENUMS: dict[str, Any] = {f.name: enum for f in fields(CrunchReport) if (enum := enum_of(str(f.type)))}
-
-
-def _column(rows: Array, name: str) -> Any:
-    """Text as str, and enums as words: None for a number that has none."""
-    column = rows[name]
-    if column.dtype.kind == "S":
-        return column.astype(str)
-    if name in ENUMS:
-        words = {int(value): value.name.lower() for value in ENUMS[name]}
-        return [words.get(int(number)) for number in column]
-    return column
-
-
-def as_table(rows: Array, pandas: bool) -> Any:
-    """The rows, or a DataFrame of them."""
+def as_table(entries: Iterable[Any], pandas: bool) -> Any:
+    """The rows of entries, or a DataFrame of them: text as str, enums as words, None for a number that has none."""
+    rows = np.array([e.row for e in entries], ROW)
     if not pandas:
         return rows
     import pandas as pd
 
-    return pd.DataFrame({name: _column(rows, name) for name in FIELDS})
+    columns: dict[str, Any] = {name: rows[name].astype(str) if rows.dtype[name].kind == "S" else rows[name] for name in FIELDS}
+    for f in fields(CrunchReport):
+        if enum := enum_of(str(f.type)):
+            words = {int(value): value.name.lower() for value in enum}
+            columns[f.name] = [words.get(int(number)) for number in rows[f.name]]
+    return pd.DataFrame(columns)
+
+
+class Place(NamedTuple):
+    """Where a packing lies: its file, and its name in a shard."""
+
+    path: Path
+    inner: str | None = None
+
+    def name(self) -> str:
+        """The packing that the file is named after, as Folder.free() does; none of a shard, and of any other name."""
+        found = re.fullmatch("([0-9a-f]{32})(-.*)?", self.path.stem)
+        return found[1] if found and self.inner is None and self.path.parent.name == found[1][:2] else ""
+
+
+class Entry:
+    """One packing of an ensemble. It has the attributes and analyses of its System: entry.forces, entry.modes(5), ...
+
+    What the file stores is read from it on first use: positions, diameters, contacts, forces, coordination, rattlers,
+    bucklers, history. All else is asked of a System that is made from the file for this one question, so the packing of
+    an entry never changes. To ask much, or to move spheres, take system().
+
+    Of the ensemble are `gaps` and `gap_pairs`, those of the protocol's analysis (any others: system().gaps(...));
+    `analysis(name)`, any other result; and the numbers of the report, by their names or as row["rattlers"].
+    """
+
+    __slots__ = ("row", "path", "_place")
+
+    _PLACES = {
+        "positions": "particles/spheres/position/value",
+        "contacts": "jam/contacts",
+        "pairs": "jam/contacts/pairs",
+        "vectors": "jam/contacts/vectors",
+        "contact_gaps": "jam/contacts/gaps",
+        "forces": "jam/contacts/forces",
+        "gaps": "jam/analysis/gaps/gap",
+        "gap_pairs": "jam/analysis/gaps/pair",
+        "diameters": "jam/diameters",
+        "coordination": "jam/coordination",
+        "rattlers": "jam/coordination",
+        "bucklers": "jam/coordination",
+        "history": "jam/history",
+    }
+
+    def __init__(self, row: Any, place: Place) -> None:
+        #: The row of the table
+        self.row = row
+        #: The file, which may be a shard
+        self.path, self._place = place.path, place
+
+    seed = property(lambda self: int(self.row["seed"]))
+
+    def read(self, *names: str) -> tuple[Any, ...]:
+        """Several of the stored attributes with one opening of the file."""
+        packing = read_packing(*self._place)
+        return tuple(self._get(packing, name) for name in names)
+
+    def _get(self, packing: Packing, name: str) -> Any:
+        if name in FIELDS and name not in self._PLACES:
+            return self.row[name]
+        found = packing.get(self._PLACES.get(name, "jam/analysis/" + name))
+        if found is None:
+            there = [*self._PLACES, *(packing.get("jam/analysis") or ())]
+            raise KeyError(f"{self.path} contains no {name!r}; there may be {', '.join(there)}")
+        if name in ("rattlers", "bucklers"):
+            return found == (0 if name == "rattlers" else int(self.row["dim"]) + 1)
+        return Contacts(**found) if name == "contacts" else found[0] if name == "positions" else found
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        if name in self._PLACES:
+            try:
+                return self.read(name)[0]
+            except KeyError:
+                if name.startswith("gap") or not hasattr(System, name):
+                    raise
+                return getattr(self.system(), name)  # which says what is missing
+        if name in FIELDS:
+            return self.row[name]
+        if hasattr(System, name):
+            return getattr(self.system(), name)
+        raise AttributeError(f"neither System nor the table of an ensemble has {name!r}")
+
+    def __dir__(self) -> list[str]:
+        of_system = [name for name in dir(System) if not name.startswith("_")]
+        return sorted({*object.__dir__(self), *self._PLACES, *FIELDS, *of_system})
+
+    def analysis(self, name: str) -> Any:
+        """A result of the protocol's analysis: a number, an array, text, or a dict of them."""
+        return self.read(name)[0]
+
+    def system(self) -> System:
+        """The packing itself."""
+        return store.load(*self._place)
+
+    def __repr__(self) -> str:
+        return f"Entry(seed={self.seed}, n={self.row['n']}, jammed={self.row['jammed']}, {self.path.name})"
 
 
 class DamagedWarning(UserWarning):
@@ -136,20 +218,16 @@ class Status:
         return max(0, self.asked - self.done - self.failed - len(self.damaged))
 
     def __str__(self) -> str:
-        text = (
-            f"{self.done} of {self.asked} packings are there, {self.jammed} jammed; {self.failed} failed, "
-            f"{self.missing} to be made"
-        )
-        if self.made:
-            text += f"; {self.made} made now"
-        if self.damaged:
-            text += f"; {len(self.damaged)} damaged and omitted: " + "; ".join(self.damaged[:3])
-        if self.odd:
-            text += f"; {len(self.odd)} files are odd: " + "; ".join(self.odd[:3])
-        if self.remade:
-            text += f"; made again: {', '.join(self.remade)}"
-        if len(self.builds) > 1:
-            text += f"; made by {len(self.builds)} builds: " + ", ".join(self.builds)
+        there = f"{self.done} of {self.asked} packings are there, {self.jammed} jammed"
+        text = f"{there}; {self.failed} failed, {self.missing} to be made"
+        for count, said in (
+            (self.made, f"{self.made} made now"),
+            (len(self.damaged), f"{len(self.damaged)} damaged and omitted: " + "; ".join(self.damaged[:3])),
+            (len(self.odd), f"{len(self.odd)} files are odd: " + "; ".join(self.odd[:3])),
+            (len(self.remade), f"made again: {', '.join(self.remade)}"),
+            (len(self.builds) > 1, f"made by {len(self.builds)} builds: " + ", ".join(self.builds)),
+        ):
+            text += f"; {said}" if count else ""
         return text
 
 
@@ -167,8 +245,8 @@ def key_of(path: Path, inner: str | None) -> bytes:
 
 def _checksum(rows: bytes) -> bytes:
     """Changes with the rows, with their layout, and with what stands for unknown in them."""
-    absent = [unknown(str(f.type)) for f in fields(CrunchReport)]
-    return hashlib.sha256(f"{ROW.descr} {absent}".encode() + rows).digest()
+    fill(absent := np.zeros((), ROW))
+    return hashlib.sha256(f"{ROW.descr}".encode() + absent.tobytes() + rows).digest()
 
 
 def read_index(path: Path) -> dict[bytes, bytes]:

@@ -1,7 +1,4 @@
-"""Frames of GSD by HOOMD's schema: what stands in a frame itself, what in frame 0, and what libjam keeps beside.
-
-Needs python3-gsd.
-"""
+"""Frames of GSD by HOOMD's schema: what stands in a frame itself, what in frame 0, and what libjam keeps beside."""
 from __future__ import annotations
 
 import os
@@ -104,12 +101,9 @@ class _Frame:
         self.path, self.at, self.file, self.one = path, at, file.file, file[at]
         self.dim, self.n = int(self.one.configuration.dimensions), int(self.one.particles.N)
         if self.dim not in (2, 3):
-            raise self.bad(f"configuration/dimensions is {self.dim}, it must be 2 or 3")
+            raise bad(self.path, f"configuration/dimensions is {self.dim}, it must be 2 or 3")
         if self.n == 0:
-            raise self.bad(f"frame {at} has no sphere")
-
-    def bad(self, text: str) -> Exception:
-        return bad(self.path, text)
+            raise bad(self.path, f"frame {at} has no sphere")
 
     def chunks(self) -> set[str]:
         """Those that this frame has, of its own or from frame 0."""
@@ -121,14 +115,14 @@ class _Frame:
     def placed(self, notes: list[str]) -> dict[str, Any]:
         """Positions from the corner of the cell, and its vectors."""
         if self.n > 1 and not self.has("particles/position"):
-            raise self.bad(f"frame {self.at} has no chunk particles/position")
+            raise bad(self.path, f"frame {self.at} has no chunk particles/position")
         lx, ly, lz, xy, xz, yz = (float(v) for v in self.one.configuration.box)
         cell = np.array([[lx, 0, 0], [xy * ly, ly, 0], [xz * lz, yz * lz, lz]])
         x = np.asarray(self.one.particles.position)
         # GSD leaves its default box of side 1 out, so a file without a box holds either that one or none
         if not self.has("configuration/box"):
             if np.abs(x[:, : self.dim]).max() > 0.5 + 1e-6:
-                raise self.bad("no chunk configuration/box, and some positions lie outside the default box of side 1")
+                raise bad(self.path, "no chunk configuration/box, and some positions lie outside the default box of side 1")
             notes.append("the file names no box: its side is taken as 1")
         notes.append("positions of the file have single precision, about 7 digits")
         return placed(self.path, x, cell, -0.5 * cell[: self.dim].sum(0), self.dim, notes)
@@ -145,7 +139,8 @@ class _Frame:
         if not (wrong := self.difference(*kept)):
             return kept
         if any(self.file.chunk_exists(frame=self.at, name="log/" + name) for name in _KEPT):
-            raise self.bad(
+            raise bad(
+                self.path,
                 f"{wrong} of frame {self.at} does not agree with the copy of libjam in log/jam: another program changed the "
                 "frame. doubles=False reads the frame alone",
             )
@@ -175,10 +170,11 @@ class _Frame:
             if values is None:
                 continue
             if kinds.min() < 0 or kinds.max() >= len(values):
-                raise self.bad(f"{name} has {len(values)} types, and particles/typeid reaches {kinds.max()}")
+                raise bad(self.path, f"{name} has {len(values)} types, and particles/typeid reaches {kinds.max()}")
             found[name] = values[kinds]
         if not found:
-            raise self.bad(
+            raise bad(
+                self.path,
                 f"no diameters in the file ({_DIAMETER}, {_SHAPES}, {_RADII}): give diameters=, also where they are 1, which GSD "
                 "does not write",
             )
@@ -192,7 +188,7 @@ class _Frame:
             return None
         for k, shape in enumerate(shapes):
             if shape.get("type") not in ("Sphere", "Disk") or "diameter" not in shape:
-                raise self.bad(f"{_SHAPES}: type {k} is {shape}, and no sphere with a diameter: give diameters=")
+                raise bad(self.path, f"{_SHAPES}: type {k} is {shape}, and no sphere with a diameter: give diameters=")
         return np.array([float(shape["diameter"]) for shape in shapes])
 
     def of_state(self) -> Array | None:
@@ -201,7 +197,7 @@ class _Frame:
         names = self.file.find_matching_chunk_names(prefix)
         shapes = {name[len(prefix) :].split("/")[0] for name in names if name.count("/") > 2} - {"integrate"}
         if shapes - {"sphere"}:
-            raise self.bad(f"{prefix}: the shapes are {', '.join(sorted(shapes))}, libjam takes spheres: give diameters=")
+            raise bad(self.path, f"{prefix}: the shapes are {', '.join(sorted(shapes))}, libjam takes spheres: give diameters=")
         if not self.has(_RADII):
             return None
         own = self.file.chunk_exists(frame=self.at, name=_RADII)

@@ -28,11 +28,6 @@ def sizes_of_law(law: Any, n: int, dim: int, seed: int) -> Array | None:
     return draw_sizes(str(law["law"]), n, dim=dim, **fields)
 
 
-def _shuffled(sizes: Array, seed: int) -> Array:
-    """On other sites of a lattice for each seed. Sizes that ascend would part small from large."""
-    return sizes[np.argsort(draw_sizes("uniform", len(sizes), low=1.0, high=2.0, draw="random", seed=seed), kind="stable")]
-
-
 def _fcc(n: int, box: float) -> Array:
     m = round((n / 4) ** (1 / 3))
     corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
@@ -41,7 +36,7 @@ def _fcc(n: int, box: float) -> Array:
 
 
 def begin(protocol: Mapping[str, Any], seed: int) -> System:
-    """The start of a complete protocol."""
+    """The start of a complete protocol. On a lattice the diameters shrink by one factor until no pair overlaps."""
     given = dict(protocol["start"])
     lattice, law = given.pop("lattice"), given.pop("diameters")
     scene = {k: given.pop(k, None) for k in SCENE}
@@ -52,8 +47,11 @@ def begin(protocol: Mapping[str, Any], seed: int) -> System:
         return System.random(seed=seed, diameters=sizes, **given, **scene)
     overlap = "allow" if given.pop("overlap", "refuse") == "allow" else "shrink"
     n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
-    ordered = isinstance(law, dict) and (law["law"] == "bidisperse" or law.get("draw") == "quantiles")
-    sizes = np.ones(n) if sizes is None else _shuffled(sizes, seed) if ordered else sizes
+    sizes = np.ones(n) if sizes is None else sizes
+    if isinstance(law, dict) and (law["law"] == "bidisperse" or law.get("draw") == "quantiles"):
+        # on other sites for each seed: sizes that ascend would part small from large
+        keys = draw_sizes("uniform", n, low=1.0, high=2.0, draw="random", seed=seed)
+        sizes = sizes[np.argsort(keys, kind="stable")]
     unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
     sizes = sizes * (phi * box**dim / unit.sum()) ** (1 / dim)
     return System.from_arrays(_fcc(n, box), sizes, box, seed=seed, overlap=overlap, **given)

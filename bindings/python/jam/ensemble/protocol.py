@@ -1,13 +1,5 @@
-"""The protocol of an ensemble: a plain dict that says how one packing is made from a seed.
-
-Data flow: a dict -> complete() checks it and spells out every default -> make(protocol, seed) gives the packing.
-
-    start     random spheres or a lattice: n, dim, packing_fraction, diameters, lattice, cell, walls, container, and the
-              options of creation.
-              On a lattice the diameters shrink by one factor until no pair overlaps.
-    stages    calls that move the spheres, one after the other: {"verb": "compress", "growth_rate": 1e-2, ...}
-    crunch    options of the crunch; None: no crunch
-    analysis  calls whose results are stored: {"gaps": {"h_max": 0.1, "stable_only": 1}}
+"""The protocol of an ensemble: a plain dict that says how one packing is made from a seed; bindings/docs/ensembles.md has its
+parts. complete() checks it and spells out every default; making.py makes the packing.
 """
 from __future__ import annotations
 
@@ -43,6 +35,7 @@ _CHECKED = ("model", "non_additivity", "overlap")  # of what the scene allows, b
 _OF_A_DRAW = {"dim", "n", "seed", "cell_volume", "packing_fraction"}  # what start and seed say
 _TRIED, _MOST_TRIED = (1, 2, 3), 4096  # seeds of starts, of so many spheres, that are made to see whether any has room
 _NOT_IN_START = ("seed",)  # the packing's own
+_NO_STAGE = ("crunch", "observe", "hessian", "modes")
 _OF_SHEAR = ("to", "mode", "stress")  # what this stage takes beside the options of its verb
 
 
@@ -138,27 +131,23 @@ def _stage(given: Mapping[str, Any] | Sequence[float]) -> dict[str, Any]:
         given = {"growth_rate": growth_rate, "pressure": pressure}
     rest = dict(given)
     verb = rest.pop("verb", "compress")
-    struct = f"jam_{verb}_options"
-    if struct not in OPTIONS or not hasattr(System, verb) or verb in ("crunch", "observe", "hessian", "modes"):
-        verbs = [s[4:-8] for s in OPTIONS if hasattr(System, s[4:-8])]
-        raise ProtocolError(f"no stage is called {verb!r}; calls with options are {', '.join(verbs)}")
+    verbs = [s[4:-8] for s in OPTIONS if hasattr(System, s[4:-8]) and s[4:-8] not in _NO_STAGE]
+    if verb not in verbs:
+        raise ProtocolError(f"no stage is called {verb!r}; there are {', '.join(verbs)}")
     own = {k: rest.pop(k, None) for k in (_OF_SHEAR if verb == "shear" else ())}
     own = {k: v if v is None else np.asarray(v, float).tolist() for k, v in own.items()}
-    return {"verb": verb, **own, **_options(struct, rest, ("resume",))}
+    return {"verb": verb, **own, **_options(f"jam_{verb}_options", rest, ("resume",))}
 
 
 _OF_SOFT = ("relax", "decompress", "shear")  # stages of spheres that overlap
-_OF_PYTHON = ("crystal_score",)  # analyses that are no call of C
 
 
 def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    method = getattr(System, name, None)
-    known = "jam_" + name in generated.CALLS or name in _OF_PYTHON
-    if name.startswith("_") or not callable(method) or not known:
-        near = get_close_matches(name, [n for n in dir(System) if "jam_" + n in generated.CALLS] + list(_OF_PYTHON))
-        there = f"; near to it: {', '.join(near)}" if near else ""
-        raise ProtocolError(f"no method of System, such as gaps or rigidity, has this name{there}")
-    takes = [p for p in list(inspect.signature(method).parameters.values())[1:] if p.name != "progress"]
+    known = [n for n in dir(System) if "jam_" + n in generated.CALLS and callable(getattr(System, n))] + ["crystal_score"]
+    if name not in known:
+        near = ", ".join(get_close_matches(name, known))
+        raise ProtocolError("no method of System, such as gaps or rigidity, has this name" + (f"; near to it: {near}" if near else ""))
+    takes = [p for p in list(inspect.signature(getattr(System, name)).parameters.values())[1:] if p.name != "progress"]
     try:
         call = inspect.Signature(takes).bind(**given)
     except TypeError as error:

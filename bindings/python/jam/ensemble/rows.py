@@ -1,9 +1,8 @@
 """The packings of an ensemble: rows of the table, which say what each is and how its crunch ended; entries, which read more;
 and what there is in numbers, with the warning of what cannot be read.
 
-index.bin in an ensemble's folder has the rows, each by a digest of its file's place, size and time of change. It only saves
-time, and may be anybody's: it is bytes of fixed length behind their checksum, and a row counts only for the file that its
-digest names. Some rows are compared with their files each time (folder.py).
+index.bin has the rows, to save time. It may be anybody's: it is bytes of fixed length behind their checksum, and a row counts
+only for a file with the place, size and time of change that its digest names. Some are compared with their files (folder.py).
 """
 from __future__ import annotations
 

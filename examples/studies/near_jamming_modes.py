@@ -96,7 +96,7 @@ def main():
         finish(line, stiffness, omega, stable.size)
     common.save(figure, args.picture)
     if args.result:
-        figures.save(args.result, f"near_jamming_modes.py{' --large' * args.large}", COLUMNS, rows)
+        figures.save(args.result, f"near_jamming_modes.py RUNS PICTURE.png{' --large' * args.large}", COLUMNS, rows)
 
 
 if __name__ == "__main__":

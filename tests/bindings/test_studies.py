@@ -2,6 +2,7 @@
 import importlib
 import json
 import random
+import re
 import shlex
 import subprocess
 import sys
@@ -130,6 +131,16 @@ class Studies(InFolder):
                 self.assertTrue([path for path in Path(here).rglob("*") if path.suffix in (".png", ".json")])
         self.assertEqual({path: path.stat().st_mtime_ns for path in studies.rglob("*")}, before)
         self.assertEqual([path.name for path in HERE.glob("*.py") if "out=HERE" in path.read_text(encoding="utf-8")], [])
+
+    def test_commands_of_results_have_the_words_of_a_usage(self):
+        # Words of a usage before its options: files, folders, or an option that has to be there.
+        for folder in (HERE.parent, HERE):
+            results = json.loads((folder / "results.json").read_text(encoding="utf-8"))
+            for script, *given in (r["command"].split() for r in results.values() if ".py" in r["command"]):
+                text = (folder / script).read_text(encoding="utf-8")
+                usages = [u.split() for u in re.findall(rf"^(?:usage:|      ) {script}((?: [^\s\[]+)*)", text, re.MULTILINE)]
+                fits = [len(u) <= len(given) and all(a[0] == b[0] for a, b in zip(u, given) if "-" in (a[0], b[0])) for u in usages]
+                self.assertTrue(any(fits), (script, given, usages))
 
     def imported(self, name, folder=HERE):
         sys.path.insert(0, str(folder))

@@ -115,16 +115,17 @@ class Studies(InFolder):
             self.assertEqual(set(map(tuple, packing.contacts.pairs.tolist())), pairs)
 
     def test_commands_of_figures_at_random(self):
-        # As printed, from another folder: each writes a picture or a result there, and nothing into the checkout.
+        # As printed but for one size less, from another folder: each writes a picture or a result there, and nothing into the checkout.
         studies = HERE.parent
         thesis = self.imported("thesis", studies)
         entries = json.loads((studies / "thesis.json").read_text(encoding="utf-8"))
         of_seconds = sorted({small for e in entries for small in thesis.commands(e).values() if small.split()[0] in thesis.SECONDS})
         self.assertGreater(len(of_seconds), 6)
+        of_seconds = [small for small in of_seconds if not small.startswith("complexity.py")]  # test_complexity runs it
         before = {path: path.stat().st_mtime_ns for path in studies.rglob("*")}
-        for small in random.Random(66).sample(of_seconds, 3):
+        for small in random.Random(13).sample(of_seconds, 3):
             with self.subTest(command=small), tempfile.TemporaryDirectory() as here:
-                _, script, *options = shlex.split(thesis.runnable(small))
+                _, script, *options = shlex.split(thesis.runnable(small).replace(" 64 128", " 128"))
                 call = [sys.executable, "-B", str(studies.parents[1] / script), *options]
                 made = subprocess.run([w.replace("PICTURE", "picture") for w in call], cwd=here, capture_output=True, text=True, check=False)
                 self.assertEqual(made.returncode, 0, made.stdout + made.stderr)

@@ -92,12 +92,6 @@ def _put(packing: Packing, path: str, value: Any) -> None:
         packing.arrays[path] = np.asarray(value)
 
 
-def _known(ask: Callable[[], Any]) -> Any:
-    """A result, None for one that the packing does not have."""
-    with contextlib.suppress(StateError):
-        return ask()
-
-
 def image(
     system: Any,
     *,
@@ -123,7 +117,10 @@ def image(
         Seconds by name, beside the moment of writing.
     """
     state, packing = system._checkpointed()
-    info, contacts, report = packing.info, _known(lambda: packing.contacts), _known(lambda: packing.report)
+    info, known = packing.info, {}
+    for name in ("contacts", "report", "history"):
+        with contextlib.suppress(StateError):  # there is none before a crunch
+            known[name] = getattr(packing, name)
     closed, spheres = closed_axes(info), "particles/spheres"
     about = {"schema": SCHEMA, "seed": info.seed, "protocol": protocol_id, **provenance(), "written": time.time()}
     if any(closed):
@@ -138,7 +135,6 @@ def image(
         "jam": {**about, **(times or {})},
         "jam/analysis": {},
     }, {})
-    known = report is not None or contacts is not None
     parts = {
         f"{spheres}/position/value": packing.positions[None],
         f"{spheres}/box/edges/value": packing.cell[None],
@@ -147,15 +143,15 @@ def image(
         f"{spheres}/refined": packing.refined_positions() if refined else None,
         "jam/state": np.frombuffer(state, np.uint8),
         "jam/diameters": packing.diameters,
-        "jam/report": report,
-        "jam/history": _known(lambda: packing.history) if known else None,
+        "jam/report": known.get("report"),
+        "jam/history": known.get("history") if known.keys() & {"report", "contacts"} else None,
         "jam/calls": json.dumps(packing.calls),
         "jam/protocol": protocol,
         **{"jam/analysis/" + name: value for name, value in (analysis or {}).items()},
     }
-    if contacts is not None:
+    if "contacts" in known:
         parts["jam/coordination"] = packing.coordination
-        parts.update({"jam/contacts/" + name: getattr(contacts, name) for name in CONTACTS})
+        parts.update({"jam/contacts/" + name: getattr(known["contacts"], name) for name in CONTACTS})
     for path, value in parts.items():
         _put(made, path, value)
     memory = io.BytesIO()

@@ -17,10 +17,8 @@ void stop(CrunchState &s, jam_stop_reason reason, jam_status status) {
 
 bool stop_if_interrupted(CrunchState &s) {
   if (!s.monitor.interrupted()) return false;
-  if (s.monitor.cancelled())
-    stop(s, JAM_STOP_CANCELLED, JAM_CANCELLED);
-  else
-    stop(s, JAM_STOP_WALL_TIME, JAM_LIMIT);
+  const bool cancelled = s.monitor.cancelled();
+  stop(s, cancelled ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME, cancelled ? JAM_CANCELLED : JAM_LIMIT);
   return true;
 }
 
@@ -42,15 +40,14 @@ void restart_lps(CrunchState &s, double bound) {
 // An estimate for progress bars. The first decades of mu on a path take the longest, so the root of their share.
 // Decades of gain in sequential LPs take about equal times.
 double part_done(const CrunchState &s, double path, double gain) {
-  using T = CrunchProgress;
   double part = s.history.stage.path_taken ? 1.0 : 0.0;
   const double of_gain = log_share(s.first_gain, gain, s.next.gain_tolerance);
   if (!std::isnan(path))
-    part = T::before_path + (1.0 - T::before_path) * std::sqrt(path);
+    part = std::sqrt(path);
   else if (s.o.method == JAM_CRUNCH_SEQUENTIAL_LP && !std::isnan(of_gain))
     part = of_gain;
   const double rounds = s.o.strain == JAM_STRAIN_NONE ? 1.0 : 2.0, begun = s.next.strain.count() > 0 ? 1.0 : 0.0;
-  return (begun + T::before_verdict * part) / rounds;
+  return (begun + before_verdict * part) / rounds;
 }
 
 bool report_step(CrunchState &s, jam_phase phase, double gain, double step, bool finished) {
@@ -77,13 +74,12 @@ void record_opening(CrunchState &s) {
 }
 
 void record_contacts(CrunchState &s, HistoryRow &row, size_t contacts, const std::vector<int32_t> &coordination) {
-  const int dim = s.out.packing.dim;
-  const int64_t stable = stable_spheres(coordination);
+  const Packing &p = s.out.packing;
+  const int64_t stable = stable_spheres(coordination), of_one_state = isostatic_contacts(stable, p.dim, p.container);
   row[JAM_HISTORY_CONTACTS] = static_cast<double>(contacts);
-  row[JAM_HISTORY_EXCESS] =
-      static_cast<double>(static_cast<int64_t>(contacts) - isostatic_contacts(stable, dim, s.out.packing.container));
+  row[JAM_HISTORY_EXCESS] = static_cast<double>(static_cast<int64_t>(contacts) - of_one_state);
   row[JAM_HISTORY_RATTLERS] = static_cast<double>(static_cast<int64_t>(coordination.size()) - stable);
-  s.history.over_stable(coordination, dim, diameter_mean(s.out.packing));
+  s.history.over_stable(coordination);
 }
 
 double free_spacing(const Packing &p) {

@@ -7,19 +7,13 @@
 #include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/limits.hpp"
-#include "crunch/approach/lp_step.hpp"
 #include "crunch/phases.hpp"
 
 namespace jam::inside {
 
-CrunchState::CrunchState(const Packing &packing_of_call, const jam_crunch_options &options, Monitor &monitor_of_call,
-                         History &history_of_call, const CrunchHooks &hooks_of_call)
-    : start(packing_of_call),
-      o(options),
-      tuning(hooks_of_call.tuning),
-      monitor(monitor_of_call),
-      history(history_of_call),
-      hooks(hooks_of_call) {
+CrunchState::CrunchState(const Packing &p, const jam_crunch_options &options, Monitor &m, History &h,
+                         const CrunchHooks &for_tests)
+    : start(p), o(options), hooks(for_tests), monitor(m), history(h) {
   out.packing = start;
   out.contacts.coordination.assign(start.n(), 0);
   out.report.struct_size = sizeof out.report;
@@ -60,6 +54,7 @@ static void run_phases(CrunchState &s) {
   begun.packing_fraction = packing_fraction(s.out.packing);
   s.monitor.expect(begun);
   const CancellableScope scope(CallScope::memory_limit(), &s.monitor);
+  s.touching = find_touching(s.start);
   if (fills_cell(s)) return;
   s.next.bound = first_bound(s.out.packing, s.o, s.tuning);
   for (Phase phase = first_phase(s); phase != Phase::done;)
@@ -69,8 +64,7 @@ static void run_phases(CrunchState &s) {
                                            : narrow_lps(s);
 }
 
-// Logs the estimate before the first factorisation, and refuses what surely exceeds the memory of the call. Small
-// systems fit at any density.
+// Logs the estimate, and refuses what surely exceeds the memory of the call. Small systems fit at any density.
 static void check_estimate(const Packing &start, const jam_crunch_options &o, Monitor &monitor) {
   const bool logs = monitor.log_fn && monitor.log_level >= JAM_LOG_INFO;
   const double unknowns = static_cast<double>(start.position.size()), full_matrix = 8.0 * unknowns * unknowns;
@@ -84,23 +78,18 @@ static void check_estimate(const Packing &start, const jam_crunch_options &o, Mo
     CallScope::need_memory(e.bytes, "the linear programs of this packing, as jam_estimate_crunch gives it,");
 }
 
-static jam_crunch_options with_usable_tolerance(jam_crunch_options o, const Monitor &monitor) {
-  if (o.lp_tolerance <= Tuning::lp_rounding) return o;
-  monitor.log(JAM_LOG_WARNING, "lp_tolerance is %g: LPs are solved to %g, the loosest that a crunch can use",
-              o.lp_tolerance, Tuning::lp_rounding);
-  o.lp_tolerance = Tuning::lp_rounding;
-  return o;
-}
-
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history,
                     const CrunchHooks *hooks) {
   check_options(start, o);
   const TimeLimit limit(monitor, o.wall_time);
   History own_history;
-  const CrunchHooks no_hooks;
-  const CrunchHooks &used = hooks ? *hooks : no_hooks;
-  CrunchState s(start, with_usable_tolerance(o, monitor), monitor, history ? *history : own_history, used);
-  Touching touching;
+  const CrunchHooks none;
+  jam_crunch_options usable = o;
+  usable.lp_tolerance = std::min(o.lp_tolerance, lp_rounding);
+  if (usable.lp_tolerance < o.lp_tolerance)
+    monitor.log(JAM_LOG_WARNING, "lp_tolerance is %g: LPs are solved to %g, the loosest that a crunch can use",
+                o.lp_tolerance, usable.lp_tolerance);
+  CrunchState s(start, usable, monitor, history ? *history : own_history, hooks ? *hooks : none);
   try {
     const CancellableScope scope(CallScope::memory_limit(), &monitor);
     check_estimate(start, o, monitor);
@@ -110,10 +99,6 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
     return std::move(s.out);
   }
   try {
-    {
-      const CancellableScope scope(CallScope::memory_limit(), &monitor);
-      touching = find_touching(start);
-    }
     run_phases(s);
     report_end(s);
   } catch (const Cancelled &) {  // in a search for pairs, or a factorisation
@@ -128,7 +113,7 @@ CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &
     stop(s, JAM_STOP_SOLVER, JAM_E_MEMORY);
     report_failure(s);
   }
-  report_changes(std::move(touching), packing_fraction(start), s);
+  report_changes(s);
   return std::move(s.out);
 }
 

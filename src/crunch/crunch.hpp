@@ -1,5 +1,4 @@
-// From any valid packing to a certified jammed one. Data flow:
-//   packing -> [pairs -> LP -> checked answer -> safe step]* -> contact network -> polish -> certificate
+// From any valid packing to a certified jammed one.
 #pragma once
 #include <functional>
 
@@ -9,9 +8,6 @@
 #include "network/contact_network.hpp"
 
 namespace jam::inside {
-
-// The record of a crunch: what each step did, the rows behind jam_crunch_history; the details of the last step during a
-// callback; states that the page shows; and the stage at which another call continues.
 
 // On the barrier path multipliers are mu over gap, so mu alone brings them back. mu = 0: not on the path.
 struct PathPoint {
@@ -37,19 +33,6 @@ struct KeptStep {
   std::vector<float> position;  // (n, dim)
 };
 
-class KeptSteps {
- public:
-  // most: states to keep, the start with them; 0: none. Large packings keep fewer.
-  void begin(const Packing &start, int64_t most);
-  // After each step. Where there is no more room every other state goes.
-  void add(const Packing &now, int64_t step);
-  std::vector<KeptStep> all() && { return std::move(kept_); }
-
- private:
-  int64_t most_ = 0, every_ = 1;
-  std::vector<KeptStep> kept_;
-};
-
 constexpr size_t history_columns = JAM_HISTORY_TOTAL_MSD_STABLE + 1;
 using HistoryRow = std::array<double, history_columns>;  // by jam_history_column
 
@@ -62,24 +45,24 @@ struct CrunchStep {
   std::vector<double> multiplier;    // m: lambda_ij, sum lambda sigma_ij^2 = 1
 };
 
+// What each step of a crunch did.
 class History {
  public:
-  // From here on displacements count. details: fill step() too. keep: states to keep at most.
+  // From here on displacements count. details: fill step() too. keep: states to keep at most, the start with them;
+  // large packings keep fewer.
   void begin(const Packing &start, bool details, int64_t keep = 0);
-  // A row for the move from the packing of the last call to `now`. displacement, unit of box, may be NULL when no
-  // sphere moved by half a box: then nearest images give it. seconds, factorisations: totals so far. Unknown columns
-  // are NaN.
+  // A row for the move since the last call. displacement, unit of box, may be NULL when no sphere moved by half a box:
+  // then nearest images give it. seconds, factorisations: totals so far. Unknown columns are NaN.
   HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                     const double *displacement = nullptr);
   // Mean squares of the last row over stable spheres alone: those with a contact.
-  void over_stable(const std::vector<int32_t> &coordination, int dim, double unit);
+  void over_stable(const std::vector<int32_t> &coordination);
   // From begin() to `now`, over the mean diameter, without the mean displacement: the largest, and the root of the mean
   // square; with `coordination` of the spheres that have contacts.
   void displaced(const Packing &now, const std::vector<int32_t> *coordination, double &largest, double &rms) const;
   // The packing at the last row: valid also while a step is being made.
   const Packing &reached() const { return reached_; }
-  // Where a crunch continues from there.
-  CrunchStage stage;
+  CrunchStage stage;  // where a crunch continues from there
   // Did any sphere move, or grow, since the last row?
   bool behind(const Packing &now) const {
     return now.position != reached_.position || now.diameter.front() != reached_.diameter.front();
@@ -92,12 +75,18 @@ class History {
   const CrunchStep &step() const { return step_; }
   const std::vector<HistoryRow> &rows() const & { return rows_; }
   std::vector<HistoryRow> rows() && { return std::move(rows_); }
-  std::vector<KeptStep> kept() && { return std::move(kept_).all(); }
+  std::vector<KeptStep> kept() && { return std::move(kept_); }
 
  private:
+  // Where there is no more room every other state goes.
+  void keep(const Packing &now);
+  // Displacements by nearest images.
+  std::vector<double> since_last_row(const Packing &now) const;
+
   bool details_ = false;
   std::vector<HistoryRow> rows_;
-  KeptSteps kept_;
+  std::vector<KeptStep> kept_;
+  int64_t most_kept_ = 0, kept_every_ = 1;
   Packing reached_;
   std::vector<double> total_, last_;  // moved since begin(); moved in the last row
   double seconds_ = 0.0;
@@ -105,7 +94,6 @@ class History {
   CrunchStep step_;
 };
 
-// Options of jam_crunch: defaults and what is refused.
 jam_crunch_options default_crunch_options();
 // Throws for options that make no sense and for packings that cannot be crunched.
 void check_options(const Packing &p, const jam_crunch_options &o);
@@ -127,14 +115,11 @@ struct CrunchHooks {
 };
 
 // Throws for bad options, and where the estimate exceeds the memory of the call, else never: the result carries the
-// status. history may be NULL. It ends with the steps of the
-// attempt that is returned; its stage says where a stopped crunch begins, and where this one stopped.
+// status. history may be NULL; its stage says where a stopped crunch begins, and where this one stopped.
 CrunchResult crunch(const Packing &start, const jam_crunch_options &o, Monitor &monitor, History *history = nullptr,
                     const CrunchHooks *hooks = nullptr);
 
-// What a crunch will cost, from the particle graph and its elimination tree alone.
-
-// Memory and work of a crunch before it runs. Throws for bad options.
+// Memory and work of a crunch, from the particle graph and its elimination tree alone. Throws for bad options.
 [[gnu::cold]] jam_estimate_report estimate(const Packing &start, const jam_crunch_options &o);
 
 }  // namespace jam::inside

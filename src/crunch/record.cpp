@@ -14,21 +14,15 @@
 #include "verdict/text.hpp"
 
 namespace jam::inside {
-namespace {
-
-struct Spread {
-  double largest = 0.0, mean_square = 0.0;
-};
-
-// Of the displacements x (n, d) without their mean: a translation of all spheres means nothing. With `coordination`
-// only spheres that have a contact count.
-Spread spread(const std::vector<double> &x, int dim, double unit, const std::vector<int32_t> *coordination = nullptr) {
+Spread spread(const std::vector<double> &x, int dim, double unit, const std::vector<int32_t> *coordination,
+              uint32_t closed_axes) {
   const size_t n = x.size() / static_cast<size_t>(dim);
   const auto counts = [&](size_t i) { return !coordination || (*coordination)[i] > 0; };
   std::array<double, JAM_MAX_DIM> mean{};
   double number = 0.0;
   for (size_t i = 0; i < n; ++i) number += counts(i);
-  for (size_t k = 0; k < x.size(); ++k) mean[k % dim] += counts(k / dim) ? x[k] / number : 0.0;
+  for (size_t k = 0; k < x.size(); ++k)
+    if (counts(k / dim) && !(closed_axes >> k % dim & 1)) mean[k % dim] += x[k] / number;
   Spread out;
   double sum = 0.0;
   for (size_t i = 0; i < n; ++i) {
@@ -42,25 +36,30 @@ Spread spread(const std::vector<double> &x, int dim, double unit, const std::vec
   return out;
 }
 
-}  // namespace
-
-void History::begin(const Packing &start, bool details, int64_t keep) {
+void History::begin(const Packing &start, bool details, int64_t most) {
   details_ = details;
   rows_.clear();
   rows_.reserve(64);
-  kept_.begin(start, keep);
   reached_ = start;
   total_.assign(start.position.size(), 0.0);
   last_ = total_;
+  kept_.clear(), kept_every_ = 1;
+  most_kept_ = std::min(most, std::max<int64_t>(1, limits::kept_coordinates / static_cast<int64_t>(last_.size())));
+  keep(start);
   seconds_ = 0.0, factorisations_ = 0;
   step_ = CrunchStep();
 }
 
+std::vector<double> History::since_last_row(const Packing &now) const {
+  std::vector<double> x(now.position);
+  for (size_t k = 0; k < x.size(); ++k) x[k] -= reached_.position[k];
+  for (size_t i = 0; i < now.n(); ++i) now.cell.nearest(&x[i * static_cast<size_t>(now.dim)]);
+  return x;
+}
+
 HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                            const double *displacement) {
-  for (size_t k = 0; k < last_.size(); ++k)
-    last_[k] = displacement ? displacement[k] : now.position[k] - reached_.position[k];
-  for (size_t i = 0; !displacement && i < now.n(); ++i) now.cell.nearest(&last_[i * static_cast<size_t>(now.dim)]);
+  last_ = displacement ? std::vector<double>(displacement, displacement + last_.size()) : since_last_row(now);
   for (size_t k = 0; k < last_.size(); ++k) total_[k] += last_[k];
   HistoryRow row;
   row.fill(std::numeric_limits<double>::quiet_NaN());
@@ -75,7 +74,7 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
   row[JAM_HISTORY_SECONDS] = seconds - seconds_;
   row[JAM_HISTORY_FACTORISATIONS] = row[JAM_HISTORY_ITERATIONS] = factorisations - factorisations_;
   rows_.push_back(row);
-  kept_.add(now, static_cast<int64_t>(rows_.size()));
+  keep(now);
   reached_ = now;
   seconds_ = seconds, factorisations_ = factorisations;
   if (details_) {
@@ -87,18 +86,16 @@ HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seco
 
 void History::displaced(const Packing &now, const std::vector<int32_t> *coordination, double &largest,
                         double &rms) const {
-  std::vector<double> x(total_), last(now.dim);
-  for (size_t i = 0; i < now.n(); ++i) {  // and what has moved since the last row
-    for (int c = 0; c < now.dim; ++c) last[c] = now.position[i * now.dim + c] - reached_.position[i * now.dim + c];
-    now.cell.nearest(last.data());
-    for (int c = 0; c < now.dim; ++c) x[i * now.dim + c] += last[c];
-  }
+  std::vector<double> x = since_last_row(now);
+  for (size_t k = 0; k < x.size(); ++k) x[k] += total_[k];
   const Spread s = spread(x, now.dim, diameter_mean(now), coordination);
   largest = s.largest, rms = std::sqrt(s.mean_square);
 }
 
-void History::over_stable(const std::vector<int32_t> &coordination, int dim, double unit) {
+void History::over_stable(const std::vector<int32_t> &coordination) {
   HistoryRow &row = rows_.back();
+  const int dim = reached_.dim;
+  const double unit = diameter_mean(reached_);
   row[JAM_HISTORY_STEP_MSD_STABLE] = spread(last_, dim, unit, &coordination).mean_square;
   row[JAM_HISTORY_TOTAL_MSD_STABLE] = spread(total_, dim, unit, &coordination).mean_square;
 }
@@ -109,8 +106,7 @@ void History::take_network(const Packing &p, const PackingLp &lp, const LpSoluti
   double r[JAM_MAX_DIM];
   step_.pair.clear(), step_.vector.clear(), step_.multiplier.clear();
   for (size_t k = 0; k < on.size(); ++k) {
-    if (!on[k] || !(answer.y[k] > 0.0))
-      continue;  // a contact without force, which Clp's vertices may have, is not in the balance
+    if (!on[k] || !(answer.y[k] > 0.0)) continue;  // Clp's vertices may have contacts without force
     const double sigma = contact_distance(p, pairs.i[k], pairs.j[k]);
     pair_vector(p, pairs, k, r);
     step_.pair.push_back(pairs.i[k]), step_.pair.push_back(pairs.j[k]);
@@ -119,22 +115,15 @@ void History::take_network(const Packing &p, const PackingLp &lp, const LpSoluti
   }
 }
 
-void KeptSteps::begin(const Packing &start, int64_t most) {
-  const int64_t room = limits::kept_coordinates / static_cast<int64_t>(start.position.size());
-  most_ = std::min(most, std::max<int64_t>(1, room));
-  every_ = 1;
-  kept_.clear();
-  add(start, 0);
-}
-
-void KeptSteps::add(const Packing &now, int64_t step) {
-  if (most_ == 0 || step % every_ != 0) return;
+void History::keep(const Packing &now) {
+  const int64_t step = static_cast<int64_t>(rows_.size());
+  if (most_kept_ == 0 || step % kept_every_ != 0) return;
   kept_.push_back({step, now.diameter.front(), packing_fraction(now), now.cell,
                    std::vector<float>(now.position.begin(), now.position.end())});
-  while (static_cast<int64_t>(kept_.size()) > most_) {
-    every_ *= 2;
-    kept_.erase(std::remove_if(kept_.begin(), kept_.end(), [&](const KeptStep &k) { return k.step % every_ != 0; }),
-                kept_.end());
+  while (static_cast<int64_t>(kept_.size()) > most_kept_) {
+    kept_every_ *= 2;
+    const auto left_out = [&](const KeptStep &k) { return k.step % kept_every_ != 0; };
+    kept_.erase(std::remove_if(kept_.begin(), kept_.end(), left_out), kept_.end());
   }
 }
 
@@ -159,25 +148,24 @@ CrunchStage CrunchStage::of(const std::string &bytes) {
   return stage;
 }
 
-// Closed pairs as in the test of jamming, and those that digits cannot distinguish from them.
 Touching find_touching(const Packing &start) {
   const GapResolution resolution = gap_resolution(start);
   const PairList pairs = find_pairs(start, resolution.reach(), 1.0 + contact_gap_limit);
-  double r[JAM_MAX_DIM];
+  const std::vector<double> gap = relative_gaps(start, pairs);
   Touching found;
   found.total = 0;
   for (size_t k = 0; k < pairs.size(); ++k) {
-    const double sigma = contact_distance(start, pairs.i[k], pairs.j[k]);
-    const double gap = std::sqrt(pair_vector(start, pairs, k, r)) / sigma - 1.0;
-    if (!(gap < contact_gap_limit || gap * sigma < resolution.reach())) continue;
+    const double length = gap[k] * contact_distance(start, pairs.i[k], pairs.j[k]);
+    if (!(gap[k] < contact_gap_limit || length < resolution.reach())) continue;
     ++found.images[{pairs.i[k], pairs.j[k]}], ++found.total;
   }
   return found;
 }
 
-void report_changes(Touching start, double packing_fraction_start, CrunchState &s) {
+void report_changes(CrunchState &s) {
+  Touching &start = s.touching;
   jam_crunch_report &r = s.out.report;
-  r.packing_fraction_start = packing_fraction_start;
+  r.packing_fraction_start = packing_fraction(s.start);
   r.contacts_start = start.total;
   r.contacts_kept = -1;
   r.displacement_max = r.displacement_rms = r.displacement_max_stable = r.displacement_rms_stable = std::nan("");
@@ -198,7 +186,7 @@ void report_changes(Touching start, double packing_fraction_start, CrunchState &
 }
 
 // The cause of a status above 0. A sphere that fills a round container stands in its middle, where the wall has no
-// normal, so that it has no contact; LPs get within 1e-12 to 1e-8.
+// normal; LPs get within 1e-12 to 1e-8.
 static void explain(CrunchState &s) {
   const Packing &p = s.out.packing;
   const auto largest = std::max_element(p.diameter.begin(), p.diameter.end());

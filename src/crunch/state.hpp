@@ -1,4 +1,4 @@
-// What the phases of a crunch pass to each other: data alone. phases.hpp has what all phases do with it.
+// What the phases of a crunch pass to each other.
 #pragma once
 #include <map>
 
@@ -9,7 +9,6 @@
 namespace jam::inside {
 
 // Which rows of an LP carry force, and which spheres they touch.
-
 struct ActiveSet {
   std::vector<size_t> rows;           // indices into the LP's pairs, ascending
   std::vector<int32_t> coordination;  // n
@@ -19,9 +18,15 @@ struct ActiveSet {
 // One flag a row: it carries force, or its slack is below `closed`.
 std::vector<char> force_carrying(const PackingLp &lp, const LpSolution &answer, double closed);
 ActiveSet find_active_set(const PackingLp &lp, const LpSolution &answer, double closed);
-// Largest |s| over spheres with a force, their mean taken out along all axes but those closed by walls (bits); over all
-// spheres if no sphere has one.
+// Largest |s| over spheres with a force; over all, mean included, if no sphere has one.
 double largest_step(const LpSolution &answer, const ActiveSet &active, int dim, uint32_t closed_axes = 0);
+// Of displacements x (n, d) over `unit`, without their mean along all axes but those closed by walls (bits). With
+// `coordination` only spheres that have a contact count.
+struct Spread {
+  double largest = 0.0, mean_square = 0.0;
+};
+Spread spread(const std::vector<double> &x, int dim, double unit, const std::vector<int32_t> *coordination = nullptr,
+              uint32_t closed_axes = 0);
 // The active rows as contacts of p: unit vectors, gaps, forces from the multipliers.
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &answer,
                              const ActiveSet &active);
@@ -29,8 +34,6 @@ ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSo
 // saddle after the other. y: multipliers, sum 1; isostatic: d n.
 bool hyperstatic(const std::vector<double> &y, double isostatic, const Tuning &tuning);
 
-// approach: sequential LPs. barrier_path: Newton steps on the true gaps. identify: contacts, last digits, verdict.
-// narrow_lps: where these leave it open which contacts carry force. Each phase function returns the phase that follows.
 enum class Phase { approach, barrier_path, identify, narrow_lps, done };
 
 struct LastLp {
@@ -59,33 +62,33 @@ struct CrunchFindings {
   bool start_tested = false;  // the verdict on the start was asked for
 };
 
-struct CrunchState {
-  CrunchState(const Packing &packing_of_call, const jam_crunch_options &options, Monitor &monitor_of_call,
-              History &history_of_call, const CrunchHooks &hooks_of_call);
-
-  const Packing &start;
-  const jam_crunch_options o;
-  const Tuning tuning;
-  Monitor &monitor;
-  History &history;  // its stage is where a stopped crunch continues
-  const CrunchHooks &hooks;
-  CrunchResult out;
-  NewtonSystem system;
-  InteriorPoint interior_point{system, tuning.single};
-  LastLp last;
-  NextLp next;
-  CrunchFindings found;
-  double first_gain = 0.0;  // of an LP, for the progress
-};
-
-// The report of a crunch: its end, and what it did to the packing that it was given.
-
 // Closed pairs of the start as in the test of jamming, and those that digits cannot distinguish from them. Found before
 // the work: after it the time of the call may be over.
 struct Touching {
   std::map<std::pair<int32_t, int32_t>, int64_t> images;  // that touch, of each pair
   int64_t total = -1;                                     // -1: not known, as the call was stopped
 };
+
+struct CrunchState {
+  CrunchState(const Packing &p, const jam_crunch_options &options, Monitor &m, History &h,
+              const CrunchHooks &for_tests);
+
+  const Packing &start;
+  const jam_crunch_options o;
+  const CrunchHooks &hooks;
+  const Tuning tuning = hooks.tuning;
+  Monitor &monitor;
+  History &history;  // its stage is where a stopped crunch continues
+  CrunchResult out;
+  NewtonSystem system;
+  InteriorPoint interior_point{system, tuning.single};
+  LastLp last;
+  NextLp next;
+  CrunchFindings found;
+  Touching touching;
+  double first_gain = 0.0;  // of an LP, for the progress
+};
+
 Touching find_touching(const Packing &start);
 
 // The final network certified, the verdict and the counters of the work.
@@ -93,6 +96,6 @@ void report_end(CrunchState &s);
 // Out of memory, or no LP solved: the state is the last good one, without contacts. It allocates only what it must.
 void report_failure(CrunchState &s);
 // What the crunch did to the packing that it was given.
-void report_changes(Touching start, double packing_fraction_start, CrunchState &s);
+void report_changes(CrunchState &s);
 
 }  // namespace jam::inside

@@ -152,10 +152,10 @@ double BarrierProblem::merit(const BarrierStep &x, double alpha) const {
   return -math::log(1.0 + g) - mu * (sum + math::log(product));
 }
 
-// Golden sections. The whole Newton step if that is about as good.
+// Golden sections: (sqrt(5) - 1) / 2. The whole Newton step if that is about as good.
 BarrierProblem::Best BarrierProblem::search(const BarrierStep &x) {
   bend(x);
-  const double most = T::of_feasible * max_feasible_alpha(x), part = T::golden;
+  const double most = T::of_feasible * max_feasible_alpha(x), part = 0.6180339887498949;
   double low = 0.0, high = most, a = high - part * (high - low), b = low + part * (high - low);
   double at_a = merit(x, a), at_b = merit(x, b);
   for (int k = 0; k < T::golden_sections; ++k) {
@@ -187,8 +187,7 @@ void PathMatrix::choose_coupled(const Packing &p, const BarrierProblem &b) {
   std::vector<char> coupled(c.size(), 0);
   for (const size_t k : coupled_) coupled[k] = 1;
   size_t wanted = 0, missing = 0;
-  for (size_t k = 0; k < c.size(); ++k)
-    wanted += c[k] <= slack, missing += !coupled[k] && c[k] <= T::close_screened * slack;
+  for (size_t k = 0; k < c.size(); ++k) wanted += c[k] <= slack, missing += !coupled[k] && c[k] <= T::joins_too * slack;
   if (!coupled_.empty() && missing == 0 &&
       static_cast<double>(wanted) > T::still_wanted * static_cast<double>(coupled_.size()))
     return;

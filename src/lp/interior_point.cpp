@@ -162,8 +162,7 @@ double InteriorPoint::complementarity() const {
 
 bool InteriorPoint::converged() const {
   const double gap = complementarity();
-  if (dual_norm_ > (gap > control_.tolerance ? Rules::rough_balance : Rules::balance) ||
-      std::fabs(rg_) > Rules::unit_sum)
+  if (dual_norm_ > (gap > control_.tolerance ? Rules::rough_balance : Rules::balance) || std::fabs(rg_) > lp_rounding)
     return false;
   return gap <= control_.tolerance || (control_.early_fraction > 0 && g_ > 0 && gap <= control_.early_fraction * g_);
 }
@@ -207,7 +206,7 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
     best_merit = std::min(best_merit, merit), best_balance = std::min(best_balance, dual_norm_);
     if (monitor && monitor->interrupted()) break;
     if (stalled_iterations >= max_stalled || out.iterations >= control.max_iterations) {
-      out.solved = gap <= Rules::near_gap * control.tolerance && dual_norm_ <= Rules::near_balance * Rules::balance;
+      out.solved = gap <= Rules::near_gap * control.tolerance && dual_norm_ <= Rules::rough_balance;
       break;
     }
     if (monitor) monitor->expect_factorisations(system_.factorisations);

@@ -38,7 +38,7 @@ struct IpmControl {
   int threads = 1;
   // Of the diagonal that holds translations, over the mean weight. 0: spheres that their contacts hold softly, by weak
   // forces, move freely; translations keep to the bounds.
-  double ridge = InteriorPointTuning::ridge;
+  double ridge = translation_ground;
   // One a row, of an LP with the same carrying rows: a warm start (0: not known). NULL: cold.
   const std::vector<double> *multipliers = nullptr;
 };

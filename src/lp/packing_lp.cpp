@@ -39,7 +39,7 @@ PackingLp make_lp(const Packing &p, const PairList &pairs, double sigma_unit, co
 }
 
 double centre_multipliers(std::vector<double> &y, const std::vector<double> &w, double carrying) {
-  constexpr double factor = InteriorPointTuning::multiplier_band;
+  constexpr double factor = CorrectorTuning::band;
   double sum = 0.0, products = 0.0, inverse = 0.0;
   for (size_t k = 0; k < y.size(); ++k) sum += y[k], products += y[k] * w[k], inverse += 1.0 / w[k];
   const double mu = sum > 0.0 ? products / (sum * carrying) : 1.0 / inverse;

@@ -118,7 +118,7 @@ bool clp_is_built();
 // Clp's simplex on the same LP, an independent and slower solver. Thread-safe: each call has its own model. monitor,
 // which may be NULL, can interrupt it between two pivots. start: a basis from a former answer with rows for this LP (0:
 // not known), or NULL.
-LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = clp_tolerance, const Monitor *monitor = nullptr,
+LpSolution solve_lp_clp(const PackingLp &lp, double tolerance = lp_rounding, const Monitor *monitor = nullptr,
                         const LpSolution *start = nullptr);
 
 }  // namespace jam::inside

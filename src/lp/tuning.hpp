@@ -17,9 +17,9 @@ struct WorkingSetTuning {
   // the threshold; then all rows that have lost `joins_too` join too.
   static constexpr double of_screened = 0.9, joins = 0.3, joins_too = 0.5;
   static constexpr double blocks = 0.5;  // a screened row that leaves less of the step joins
-  // On the path the set is chosen again when a screened row has less than this share of the limit, or when fewer rows
-  // than the second share are wanted.
-  static constexpr double close_screened = 0.5, still_wanted = 0.8;
+  // On the path the set is chosen again when a screened row has lost `joins_too` of the limit, or when fewer rows than
+  // this share are wanted.
+  static constexpr double still_wanted = 0.8;
   static constexpr double same_order = 0.05;  // change of its size up to which the elimination order stays
 };
 
@@ -28,29 +28,29 @@ struct InteriorPointTuning {
   // First slack of the tightest row: shares of the median slack and of the bound; warm, the gain that the multipliers
   // leave times `ahead`. Nearer to the end rounding of the rows upsets the force balance.
   static constexpr double first_slack = 0.1, slack_per_bound = 0.01, ahead = 3.0, least_slack = 1e-12;
-  static constexpr double multiplier_band =
-      10.0;  // wider, weak contacts cut first steps short; narrower, forces are lost
   // Converged: dual residual before the tolerance is reached, and at it (what rounding of the normal equations leaves;
-  // the polish takes the rest); |sum y - 1|.
-  static constexpr double rough_balance = 1e-3, balance = 1e-5, unit_sum = 1e-9;
-  // Steps that better neither gap nor balance by a tenth end it; solved is what comes near the tolerances.
-  static constexpr double progress = 0.9, near_gap = 1e3, near_balance = 1e2;
+  // the polish takes the rest).
+  static constexpr double rough_balance = 1e-3, balance = 1e-5;
+  // Steps that better neither gap nor balance by a tenth end it; solved is what comes near the tolerance of the gap,
+  // roughly balanced.
+  static constexpr double progress = 0.9, near_gap = 1e3;
   static constexpr int max_stalled = 8, max_stalled_warm = 3;
   static constexpr int max_iterations = 80, max_correctors = 3;
   static constexpr double max_cut = 0.05, least_cut = 1e-6, cut_per_gap = 0.1;  // of the step to the boundary
   static constexpr double least_ratio = 1e-8, of_tolerance = 0.1;               // targets of mu
-  static constexpr double ridge = 1e-12;                                        // over the mean weight
   static constexpr double whole_step = 0.9, least_win = 0.03;                   // longer steps need no corrector
 };
 
 // ---- factors in single precision (tests/bench/README.md). Below 150 flops per number of the factor, solves take as
-// long as it saves. A direction may be wrong by 1e-3, and take 8 products.
+// long as it saves. A direction may be as wrong as forces are before the end, and take 8 products.
 struct SingleTuning {
-  static constexpr double work = 150.0, accuracy = 1e-3;
+  static constexpr double work = 150.0, accuracy = InteriorPointTuning::rough_balance;
   static constexpr int max_products = 8;
 };
 
-// ---- correctors of LPs and of the path: products y c are pulled into this band around mu, for a step so much longer
+// ---- correctors of LPs and of the path: products y c are pulled into this band around mu, for a step so much longer.
+// Multipliers of other rows begin in it too: in a wider one weak contacts cut first steps short, in a narrower one
+// forces are lost.
 struct CorrectorTuning {
   static constexpr double band = 10.0, ahead = 0.3;
 };
@@ -59,16 +59,22 @@ struct CorrectorTuning {
 struct LineSearchTuning {
   static constexpr double longest = 4.0, of_feasible = 0.995;
   static constexpr int golden_sections = 14;
-  static constexpr double golden = 0.6180339887498949;
   static constexpr double nearly_whole = 0.1;  // a best step so near to the Newton step is the Newton step
 };
 
 // ---- displacements above this share of the bound are at it
 constexpr double at_bound = 0.999;
 
-// ---- Clp. tolerance: of rows, over the bound; of multipliers, over their mean. More pivots a row than any packing
-// needed: degenerate LPs can go round. Far below the largest number tolerances mean nothing.
-constexpr double clp_tolerance = 1e-9, clp_largest = 1e30;
+// ---- what a solver may leave: of rows, over the bound; of multipliers, over their mean; of |sum y - 1|. Spheres that
+// grow by less stay. The loosest lp_tolerance too.
+constexpr double lp_rounding = 1e-9;
+
+// ---- on diagonals, over their mean: holds translations
+constexpr double translation_ground = 1e-12;
+
+// ---- Clp. More pivots a row than any packing needed: degenerate LPs can go round. Far below the largest number
+// tolerances mean nothing.
+constexpr double clp_largest = 1e30;
 constexpr int clp_pivots_a_row = 10;
 
 }  // namespace jam::inside

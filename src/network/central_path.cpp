@@ -36,19 +36,18 @@ bool CentralPath::step() {
   std::vector<double> df, dw, dx, correction(m, 0.0);
   direction(0.0, correction, df, dw, dx);
   const double reach = std::min(longest(f_, df), longest(w_, dw));
-  const double target = mu_ * std::max(Tuning::steepest, std::min(Tuning::flattest, math::pow(1.0 - reach, 2.0)));
+  const double target = mu_ * std::max(Tuning::least, std::min(Tuning::flattest, math::pow(1.0 - reach, 2.0)));
   for (size_t k = 0; k < m; ++k)
     correction[k] =
         std::max(-Tuning::most_down * target, std::min(Tuning::most_up * target, -reach * reach * df[k] * dw[k]));
   direction(target, correction, df, dw, dx);
   double length = std::min(1.0, Tuning::to_boundary * std::min(longest(f_, df), longest(w_, dw)));
-  while (length > Tuning::least_step && worst_product(length, df, dw) < Tuning::neighbourhood)
-    length *= Tuning::shorter;
+  while (length > Tuning::least && worst_product(length, df, dw) < Tuning::least) length *= Tuning::shorter;
   for (size_t k = 0; k < m; ++k) f_[k] += length * df[k], w_[k] += length * dw[k];
   for (size_t k = 0; k < x_.size(); ++k) x_[k] += length * dx[k];
   mu_ += length * (target - mu_);
   ++steps_;
-  return length > Tuning::least_step;
+  return length > Tuning::least;
 }
 
 double CentralPath::worst_product(double t, const std::vector<double> &df, const std::vector<double> &dw) const {

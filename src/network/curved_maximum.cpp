@@ -116,7 +116,7 @@ class Maximum {
       m(size() - 1, spheres_ + 1 + k) = 1.0 / static_cast<double>(contacts_);
     }
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;  // the shortest step: symmetries are free
-    solver.setThreshold(CurvedMaximumTuning::rank);
+    solver.setThreshold(RigidityTuning::no_rotation);
     solver.compute(m);
     return solver.solve(-e);
   }
@@ -144,7 +144,7 @@ bool converge_at_curved_maximum(Packing &p, ContactNetwork &net) {
   Packing q = p;
   ContactNetwork now = net;
   double worst = HUGE_VAL;
-  for (int round = 0; round < CurvedMaximumTuning::most_rounds; ++round) {
+  for (int round = 0; round < most_refinements; ++round) {
     const Maximum at(q, now);
     if (at.size() > CurvedMaximumTuning::most_unknowns) return false;
     const Eigen::VectorXd e = at.residual();

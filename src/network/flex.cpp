@@ -59,7 +59,7 @@ void add_parts(const RigidityMatrix &g, const std::vector<int32_t> &part, const 
         }
       }
       const double after = std::sqrt(std::inner_product(v.begin(), v.end(), v.begin(), 0.0));
-      if (!(after > RigidityTuning::least_relative * before)) continue;
+      if (!(after > least_rest * before)) continue;
       for (double &x : v) x /= after;
       found.push_back(std::move(v));
     }
@@ -154,7 +154,7 @@ bool normalise(const RigidityMatrix &g, std::vector<double> &v) {
   const double largest = size_of(g, v);
   std::vector<double> rest = v;
   g.remove_symmetries(rest.data());
-  if (!(size_of(g, rest) > RigidityTuning::least_relative * largest)) return false;
+  if (!(size_of(g, rest) > least_rest * largest)) return false;
   for (double &value : v) value /= largest;
   return true;
 }

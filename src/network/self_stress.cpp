@@ -63,7 +63,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
   std::vector<double> y(g_.unknowns()), s(g_.contacts()), best(f);
   double last = std::numeric_limits<double>::infinity();
   int solves = 0;
-  for (int pass = 0; refinements < 0 ? pass < 30 : pass <= refinements; ++pass) {
+  for (int pass = 0; refinements < 0 ? pass < most_refinements : pass <= refinements; ++pass) {
     apply_equilibrium(g_, f.data(), y.data());
     const double residual = norm(y);
     if (!(residual < 0.5 * last)) {
@@ -104,7 +104,7 @@ int64_t NullSpace::zero_modes() const {
       std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b),
                             x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
       const double fresh = orthogonalise(kernel, v), length = norm(v);
-      if (fresh < ZeroModeTuning::kept || length < ZeroModeTuning::independent) {
+      if (fresh < ZeroModeTuning::kept || length < least_rest) {
         more = false;
         continue;
       }
@@ -142,7 +142,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
   // Fast way out, true for almost every packing: as many contacts as one state of self-stress has, and a random vector
   // projects on the same line as (1, 1, ...).
   const auto one = static_cast<int64_t>(g.unknowns()) - g.symmetries() + 1;
-  if (static_cast<int64_t>(m) == one && norm(out.force) > 1e-6 * std::sqrt(static_cast<double>(m))) {
+  if (static_cast<int64_t>(m) == one && norm(out.force) > least_rest * std::sqrt(static_cast<double>(m))) {
     std::vector<double> second = fresh(1), line = out.force;
     const double length = norm(second);
     space.project(second);
@@ -150,7 +150,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
     for (double &v : line) v /= scale;
     q.push_back(line);
     orthogonalise(q, second);
-    if (norm(second) < 1e-6 * length) {
+    if (norm(second) < least_rest * length) {
       out.dimension = 1;
       out.zero_modes = g.symmetries();
     }
@@ -189,7 +189,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
          static_cast<int64_t>(q.size()) < out.dimension && k < 4 * static_cast<uint64_t>(out.dimension) + 8; ++k) {
       std::vector<double> v = k == 0 && out.positive ? out.force : fresh(10 + k);
       space.project(v);
-      if (orthogonalise(q, v) < 1e-6) continue;
+      if (orthogonalise(q, v) < least_rest) continue;
       const double length = norm(v);
       for (double &x : v) x /= length;
       q.push_back(v);
@@ -233,7 +233,7 @@ void GroundedSolver::solve(double *x, int count) const {
   std::vector<double> b(x, x + n * count), r(n * count), y(n);
   factor_.solve_many(x, count);
   double last = std::numeric_limits<double>::infinity(), last_change = 0.0;
-  for (int pass = 0; pass < GroundedTuning::most_passes; ++pass) {
+  for (int pass = 0; pass < most_refinements; ++pass) {
     double residual = 0.0;
     for (int k = 0; k < count; ++k) {
       h_.multiply(x + k * n, y.data());

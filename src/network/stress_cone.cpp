@@ -29,7 +29,7 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
   if (states == 1) {
     f.assign(m, 1.0);
     project_on_balance(rows, solver, f);
-    if (mean_size(f) < Tuning::least_projection) {  // nearly orthogonal to (1, 1, ...): forces of both signs
+    if (mean_size(f) < least_rest) {  // nearly orthogonal to (1, 1, ...): forces of both signs
       Rng rng(3, Stream::analysis_start);
       for (double &v : f) v = rng.normal();
       project_on_balance(rows, solver, f);
@@ -137,7 +137,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
     for (size_t k = 0; k < m; ++k)
       if (out.carrying[k]) out.force[k] = f[at++] / mean;
     // A guess that carries nothing loses its forces in the projection.
-    if (!(mean > Tuning::least_projection)) return Support::no;
+    if (!(mean > least_rest)) return Support::no;
     if (!(*std::min_element(f.begin(), f.end()) > Tuning::zero * mean)) return Support::no;
   }
   if (count == m) return Support::whole;
@@ -198,7 +198,7 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
   for (int pass = 0; pass < Tuning::most_steps; ++pass) {
     CallScope::report_share();
     const double widest = *std::max_element(w.begin(), w.end());
-    if (!(widest < Tuning::largest_ratio * *std::min_element(w.begin(), w.end()))) return {};
+    if (!(widest < 1.0 / Tuning::least_mu * *std::min_element(w.begin(), w.end()))) return {};
     for (size_t k = 0; k < m; ++k) f[k] = 1.0 / w[k], weight[k] = f[k] * f[k];
     rows.transpose(f.data(), step.data());
     const std::vector<double> gradient = step;
@@ -238,7 +238,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
   std::vector<double> equal(m, 1.0);
   project_on_balance(rows, solver, equal);
   const double mean = mean_size(equal);
-  if (mean > Tuning::least_projection && *std::min_element(equal.begin(), equal.end()) > Tuning::sure * mean) {
+  if (mean > least_rest && *std::min_element(equal.begin(), equal.end()) > Tuning::sure * mean) {
     out.decided = true, out.carrying.assign(m, 1), out.force = equal;
     for (double &v : out.force) v /= mean;
     const std::vector<double> f = centre(rows, solver, std::vector<double>(m, 1.0), true, out.factorisations);
@@ -246,10 +246,10 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     return out;
   }
   CentralPath path(rows);
-  double next = Tuning::first_guess, widest = Tuning::clear_opening;
+  double next = Tuning::first_guess, widest = RigidityTuning::flex_rounding;
   std::vector<double> opens_all;
   bool going = true;
-  while (going && !out.decided && path.steps() < Tuning::most_path_steps && path.mu() > Tuning::least_mu) {
+  while (going && !out.decided && path.steps() < Tuning::most_steps && path.mu() > Tuning::least_mu) {
     going = path.step();
     if (path.mu() > next) continue;
     next = Tuning::next_guess * path.mu();

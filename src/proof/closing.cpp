@@ -159,7 +159,7 @@ Exchange close_together(ProofScene &scene, LpsEnd *lps) {
   ProofScene s = scene;
   Round round = Round::changed;
   bool changed = false;
-  for (int k = 0; k < proof_tuning::exchanges && round == Round::changed; ++k) {
+  for (int k = 0; k < proof_tuning::most_rounds && round == Round::changed; ++k) {
     round = exchange_once(s);
     changed = changed || round == Round::changed;
   }

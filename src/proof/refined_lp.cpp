@@ -87,14 +87,14 @@ LpsEnd close_by_lps(ProofScene &scene) {
   fit_gamma(s, pairs);
   if (!(s.gamma() > 0.0)) return LpsEnd::no_end;
   LpSolution before;
-  double length = proof_tuning::first_step;
-  for (int k = 0; k < proof_tuning::most_steps; ++k) {
+  double length = proof_tuning::vanishing;
+  for (int k = 0; k < proof_tuning::most_rounds; ++k) {
     CallScope::look();
     Step step;
     make_step(s, pairs, length, step);
     if (step.pair.size() > proof_tuning::largest_lp) return LpsEnd::too_many_rows;
     const bool same_rows = before.basis_rows.size() == step.pair.size();
-    LpSolution found = solve_lp_clp(step.lp, clp_tolerance, nullptr, same_rows ? &before : nullptr);
+    LpSolution found = solve_lp_clp(step.lp, lp_rounding, nullptr, same_rows ? &before : nullptr);
     if (!found.solved) return LpsEnd::no_end;
     for (size_t x = 0; x < s.high.size(); ++x) add_to(s.high[x], s.low[x], found.s[x] * length * std::sqrt(s.gamma()));
     std::fill(force.begin(), force.end(), 0.0);

@@ -35,8 +35,8 @@ FOLDERS = {
     "dynamics/monte_carlo": [],
     "dynamics/isoconfigurational": ["dynamics/event_driven", "dynamics/monte_carlo"],
     "crunch/approach": [],
-    "crunch/path": ["crunch/approach"],
-    "crunch/identify": ["crunch/approach"],
+    "crunch/path": [],
+    "crunch/identify": [],
 }
 # Third-party headers and the only files (or folders) under src that may see them.
 GUESTS = {

@@ -4,7 +4,7 @@
 #include <random>
 #include "test.h"
 
-#include "crunch/path/barrier_path.hpp"
+#include "crunch/phases.hpp"
 #include "lp/barrier_problem.hpp"
 #include "lp/interior_point.hpp"
 #include "unit/crunch_scenes.hpp"

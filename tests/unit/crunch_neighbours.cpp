@@ -1,7 +1,7 @@
 // The pairs that the barrier path lists: longer reaches for uncovered spheres, and paths of mixtures that need them.
 #include "test.h"
 
-#include "crunch/path/barrier_path.hpp"
+#include "crunch/phases.hpp"
 #include "unit/crunch_scenes.hpp"
 
 using namespace jam::inside;

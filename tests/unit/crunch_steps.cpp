@@ -2,8 +2,7 @@
 #include <cmath>
 #include "test.h"
 
-#include "crunch/approach/lp_step.hpp"
-#include "crunch/path/barrier_path.hpp"
+#include "crunch/phases.hpp"
 #include "crunch_scenes.hpp"
 #include "lp/packing_lp.hpp"
 

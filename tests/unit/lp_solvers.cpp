@@ -3,7 +3,7 @@
 #include <cmath>
 #include "test.h"
 
-#include "crunch/approach/lp_step.hpp"
+#include "crunch/phases.hpp"
 #include "crunch_scenes.hpp"
 #include "lp/interior_point.hpp"
 

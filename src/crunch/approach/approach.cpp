@@ -4,7 +4,6 @@
 
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/approach/lp_step.hpp"
 #include "crunch/phases.hpp"
 #include "linalg/dot.hpp"
 #include "lp/interior_point.hpp"
@@ -13,28 +12,23 @@
 namespace jam::inside {
 namespace {
 
-// What an answer must fulfil to be used. An LP that ended early has no balanced duals yet. Its point is still feasible,
-// so the step is safe if it gains no less than staying does.
-bool acceptable(const CrunchState &s, const LpSolution &x, bool early, LpCheck &check) {
-  check = check_lp(s.last.lp, x);
-  const double balance = early ? std::numeric_limits<double>::infinity() : InteriorPointTuning::rough_balance;
-  return x.solved && check.infeasibility < Tuning::lp_rounding && check.gamma < Tuning::lp_unit_sum &&
-         check.balance < balance && x.g > -Tuning::lp_rounding;
-}
-
+// The answer in s.last, if it can be used. An LP that ended early has no balanced duals yet. Its point is still
+// feasible, so the step is safe if it gains no less than staying does.
 LpAnswer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &control) {
   s.last.answer = solver == JAM_LP_IPM ? s.interior_point.solve(s.last.lp, control, &s.monitor)
-                                       : solve_lp_clp(s.last.lp, clp_tolerance, &s.monitor);
+                                       : solve_lp_clp(s.last.lp, lp_rounding, &s.monitor);
   if (s.hooks.answer) s.hooks.answer(s.last.answer, solver);
-  LpCheck check;
-  const bool good = acceptable(s, s.last.answer, control.early_fraction > 0.0, check);
+  const LpSolution &x = s.last.answer;
+  const LpCheck check = check_lp(s.last.lp, x);
+  const bool early = control.early_fraction > 0.0,
+             good = x.solved && check.infeasibility < lp_rounding && check.gamma < Tuning::lp_unit_sum &&
+                    check.balance < (early ? HUGE_VAL : InteriorPointTuning::rough_balance) && x.g > -lp_rounding;
   if (good && !s.monitor.cancelled()) {
     s.out.report.lp_solver = solver;
     s.out.report.gamma_residual = check.gamma;
     s.out.report.duality_gap = std::fabs(check.gap);
     ++s.out.report.lp_solves;
-    s.last.early =
-        control.early_fraction > 0.0 && std::fabs(check.gap) > std::max(s.next.gain_tolerance, control.tolerance);
+    s.last.early = early && std::fabs(check.gap) > std::max(s.next.gain_tolerance, control.tolerance);
     return LpAnswer::kept;
   }
   if (s.monitor.interrupted()) return LpAnswer::interrupted;
@@ -43,14 +37,13 @@ LpAnswer try_solver(CrunchState &s, jam_lp_solver solver, const IpmControl &cont
   return LpAnswer::refused;
 }
 
-// LPs alone finish a nearly jammed packing. Farther from jamming the density rises along a curved valley, where the
-// path needs fewer factorisations. One path at most: a second one after saddles gains nothing.
+// LPs alone finish a nearly jammed packing. One path at most: a second one after saddles gains nothing.
 bool path_is_shorter(const CrunchState &s, double gain, double step) {
   const Tuning &t = s.tuning;
   if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.history.stage.path_taken) return false;
   const double isostatic = s.last.lp.dim * static_cast<double>(s.last.lp.n);
   if (gain < t.crystal_gap && hyperstatic(s.last.answer.y, isostatic, t)) return false;
-  return step > t.min_bound || step * step > std::max(t.curvature_ratio * gain, t.min_opening);
+  return step > t.min_bound || step * step > std::max(t.curvature_ratio * gain, contact_gap_limit);
 }
 
 // What follows an LP with this gain and longest step, of which the part alpha was made.
@@ -59,10 +52,9 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
   // Contacts that close and forces that balance end a crunch; the bare LP must also move nothing.
   if (!gained && (s.o.polish || step <= s.o.step_tolerance)) return Phase::identify;
   if (!gained) ++s.next.stalled;
-  const bool limit = s.out.report.lp_solves >= s.o.max_lps;
-  if (alpha == 0.0 || (s.next.stalled > 0 && s.next.stalled >= s.tuning.max_attempts))
+  if (alpha == 0.0 || (s.next.stalled > 0 && s.next.stalled >= s.tuning.max_narrow_lps))
     return stop(s, JAM_STOP_STALLED, JAM_NOT_CONVERGED), Phase::identify;
-  if (limit) return stop(s, JAM_STOP_LP_LIMIT, JAM_LIMIT), Phase::identify;
+  if (s.out.report.lp_solves >= s.o.max_lps) return stop(s, JAM_STOP_LP_LIMIT, JAM_LIMIT), Phase::identify;
   if (stop_if_interrupted(s)) return Phase::identify;
   if (s.o.step_bound == 0.0) {
     const double most = alpha < 1.0 ? s.tuning.shrink * s.next.bound : s.tuning.max_bound;
@@ -163,20 +155,8 @@ ActiveSet find_active_set(const PackingLp &lp, const LpSolution &x, double close
 }
 
 double largest_step(const LpSolution &x, const ActiveSet &active, int dim, uint32_t closed_axes) {
-  std::vector<double> mean(dim, 0.0);
-  const bool any = active.stable > 0;
-  const size_t n = active.coordination.size();
-  for (size_t i = 0; i < n && any; ++i)
-    for (int c = 0; c < dim && active.coordination[i] > 0; ++c)
-      if (!(closed_axes >> c & 1)) mean[c] += x.s[i * dim + c] / static_cast<double>(active.stable);
-  double largest = 0.0;
-  for (size_t i = 0; i < n; ++i) {
-    if (any && active.coordination[i] == 0) continue;
-    double s2 = 0.0;
-    for (int c = 0; c < dim; ++c) s2 += (x.s[i * dim + c] - mean[c]) * (x.s[i * dim + c] - mean[c]);
-    largest = std::max(largest, s2);
-  }
-  return std::sqrt(largest);
+  return active.stable > 0 ? spread(x.s, dim, 1.0, &active.coordination, closed_axes).largest
+                           : spread(x.s, dim, 1.0, nullptr, ~0u).largest;
 }
 
 ContactNetwork make_contacts(const Packing &p, const PairList &pairs, const LpSolution &x, const ActiveSet &active) {

@@ -1,5 +1,3 @@
-#include "crunch/approach/lp_step.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -21,20 +19,13 @@ Packing moved(const Packing &p, PairList &pairs, const LpSolution &x, double alp
   return q;
 }
 
-// Largest part by which a strain can shorten a vector.
-double shortening(const LpSolution &x, const StrainBasis &basis) {
-  return x.strain.empty() ? 0.0 : norm(strain_matrix(basis, x.strain, 1.0));
-}
-
 // Upper bound of how much nearer any two spheres come at fixed cell: the two longest displacements.
 double closest_approach(const LpSolution &x, int dim, double unit) {
   double first = 0.0, second = 0.0;
   for (size_t k = 0; k < x.s.size(); k += dim) {
-    const double s = std::sqrt(squared(&x.s[k], dim)) * unit;
-    if (s > first)
-      second = first, first = s;
-    else if (s > second)
-      second = s;
+    double s = std::sqrt(squared(&x.s[k], dim)) * unit;
+    if (s > first) std::swap(s, first);
+    second = std::max(second, s);
   }
   return first + second;
 }
@@ -50,38 +41,23 @@ bool fit_curved_wall(Packing &q, const Packing &p, double growth) {
 
 double gain_of(const LpSolution &x) { return std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0; }
 
-void add_history_row(CrunchState &s, double alpha, double unit, double grown) {
-  std::vector<double> moved = s.last.answer.s;
-  for (double &x : moved) x *= alpha * unit;
-  HistoryRow &row = record_step(s, JAM_STEP_LP, moved.data());
-  row[JAM_HISTORY_GAIN] = grown;
-  row[JAM_HISTORY_ITERATIONS] = s.last.answer.iterations;
-  row[JAM_HISTORY_DUALITY_GAP] = s.out.report.duality_gap;
-  row[JAM_HISTORY_PAIRS] = static_cast<double>(s.last.pairs.size());
-  row[JAM_HISTORY_HELD] = static_cast<double>(s.last.at_bound);
-  row[JAM_HISTORY_PART] = alpha;
-  row[JAM_HISTORY_BOUND] = s.last.lp.bound;
-  record_contacts(s, row, s.last.active.rows.size(), s.last.active.coordination);
-}
-
 }  // namespace
 
 // Listed pairs: the linearised rows are tighter than the true ones (|r + s|^2 = |r|^2 + 2 r.s + |s|^2), and the set of
 // (s, e, g) that obeys them is convex and contains 0, so alpha (s, e, g) is safe for every alpha in [0, 1].
-// Unlisted pairs: |r| >= reach + sigma_ij. The step brings them nearer by at most the sum of the two longest
-// displacements and widens their contact distance by at most the growth of the largest diameter, so they stay apart if
-// these make no more than reach: |r'| - sigma'_ij >= reach - (s_1 + s_2) - growth >= 0. A strain shortens |r| by at
-// most its norm times |r|. If that does not settle it, alpha is halved until no pair or image
-// overlaps: at low density, where reach follows the free spacing, no pair can meet unseen.
+// Unlisted pairs: |r| >= reach + sigma_ij. They stay apart if |r'| - sigma'_ij >= reach - (s_1 + s_2) - growth >= 0,
+// with the two longest displacements and the growth of the largest diameter. A strain shortens |r| by at most its norm
+// times |r|. If that does not settle it, alpha is halved until no pair or image overlaps.
 // A round wall curves inward from the tangent in its row: a sphere that moves along it by s overlaps by s^2 / 2 |r|, at
 // any alpha. There the diameters grow by what the true distances leave, and alpha is halved until they do grow: the LP
 // promises a growth of alpha g / 2, and the curvature takes off less than a constant times alpha^2.
 double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x, double unit,
                  const StrainBasis &basis) {
-  const double widest = contact_distance_max(p), shorter = shortening(x, basis) * (reach + widest),
-               growth = (std::sqrt(1.0 + std::max(x.g, 0.0)) - 1.0) * widest;
+  const std::vector<double> strain = x.strain.empty() ? x.strain : strain_matrix(basis, x.strain, 1.0);
+  const double widest = contact_distance_max(p), shorter = norm(strain) * (reach + widest),
+               growth = gain_of(x) * widest;
   PairList shifted = pairs;
-  double alpha = x.strain.empty() ? 1.0 : strain_part(p.dim, strain_matrix(basis, x.strain, 1.0));
+  double alpha = strain.empty() ? 1.0 : strain_part(p.dim, strain);
   Packing q = moved(p, shifted, x, alpha, unit, basis);
   const auto shorten = [&] {
     alpha *= 0.5;
@@ -143,7 +119,7 @@ LpStep make_step(CrunchState &s, double reach) {
   const double unit = diameter_mean(s.out.packing);
   // What a simplex solver leaves of a closed row, and rounding.
   s.last.active =
-      find_active_set(s.last.lp, s.last.answer, std::max(2.0 * clp_tolerance * s.next.bound, s.tuning.closed_gap));
+      find_active_set(s.last.lp, s.last.answer, std::max(2.0 * lp_rounding * s.next.bound, s.tuning.closed_gap));
   s.last.at_bound = std::count_if(s.last.answer.s.begin(), s.last.answer.s.end(),
                                   [&](double x) { return std::fabs(x) > at_bound * s.last.lp.bound; });
   if (s.history.details()) s.history.take_network(s.out.packing, s.last.lp, s.last.answer);
@@ -156,9 +132,19 @@ LpStep make_step(CrunchState &s, double reach) {
       static_cast<long long>(s.out.report.lp_solves), gain, step, alpha, s.last.pairs.size(), s.last.answer.iterations,
       s.last.active.rows.size(), static_cast<long long>(s.last.active.stable), s.last.lp.bound,
       packing_fraction(s.out.packing));
+  std::vector<double> displacement = s.last.answer.s;
+  for (double &x : displacement) x *= alpha * unit;
+  HistoryRow &row = record_step(s, JAM_STEP_LP, displacement.data());
   const bool round = s.out.packing.container.curved() != 0;
   const double promised = math::expm1(0.5 * math::log1p(alpha * s.last.answer.g));
-  add_history_row(s, alpha, unit, round ? diameter_mean(s.out.packing) / unit - 1.0 : promised);
+  row[JAM_HISTORY_GAIN] = round ? diameter_mean(s.out.packing) / unit - 1.0 : promised;
+  row[JAM_HISTORY_ITERATIONS] = s.last.answer.iterations;
+  row[JAM_HISTORY_DUALITY_GAP] = s.out.report.duality_gap;
+  row[JAM_HISTORY_PAIRS] = static_cast<double>(s.last.pairs.size());
+  row[JAM_HISTORY_HELD] = static_cast<double>(s.last.at_bound);
+  row[JAM_HISTORY_PART] = alpha;
+  row[JAM_HISTORY_BOUND] = s.last.lp.bound;
+  record_contacts(s, row, s.last.active.rows.size(), s.last.active.coordination);
   return {gain, step, alpha};
 }
 

@@ -9,26 +9,14 @@
 namespace jam::inside {
 namespace {
 
-const char *text_of(PolishEnd end) {
-  switch (end) {
-    case PolishEnd::open_contact:
-      return "a contact does not close";
-    case PolishEnd::too_few:
-      return "the contacts are too few to balance";
-    case PolishEnd::negative_force:
-      return "a force turns negative";
-    case PolishEnd::overlap:
-      return "another pair would overlap";
-    default:
-      return "";
-  }
-}
-
-void add_history_row(CrunchState &s) {
-  HistoryRow &row = record_step(s, JAM_STEP_POLISH);
-  record_contacts(s, row, s.out.contacts.size(), s.out.contacts.coordination);
-  if (s.history.details()) report_step(s, JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
-}
+// In the order of PolishEnd.
+constexpr const char *why_refused[] = {"",
+                                       "there are no contacts",
+                                       "",
+                                       "a contact does not close",
+                                       "the contacts are too few to balance",
+                                       "a force turns negative",
+                                       "another pair would overlap"};
 
 void log_verdict(const CrunchState &s, const PackingVerdict &v) {
   const RigidityResult &r = v.result;
@@ -72,8 +60,8 @@ bool tested(CrunchState &s, PackingVerdict &verdict, Test &&test) {
   return true;
 }
 
-// What the next phase follows from: the contacts that were found, as closed as they are. What this leaves undecided
-// goes to narrow LPs and decompressions, which cost less than the proofs of the final verdict.
+// The contacts that were found, as closed as they are. What this leaves undecided goes to narrow LPs and
+// decompressions.
 PackingVerdict test_contacts(const CrunchState &s, Jamming kind) {
   return test_packing(s.out.packing, &s.out.contacts, kind, Rule::weak_forces);
 }
@@ -120,12 +108,11 @@ bool is_back_at_start(CrunchState &s) {
   const double grown = packing_fraction(s.out.packing) / packing_fraction(s.start) - 1.0;
   const size_t wanted = s.start.n() > s.tuning.most_retried ? 1 : s.tuning.decompression.size();
   const bool decompressed = s.history.stage.decompressions >= wanted;
-  if (!decompressed || s.found.start_tested || s.next.strain.count() > 0 || grown > s.tuning.same_density) return false;
+  if (!decompressed || s.found.start_tested || s.next.strain.count() > 0 || grown > lp_rounding) return false;
   return s.found.start_tested = true;
 }
 
-// Diameters of the start cannot grow, and yet its spheres can move, as in a crystal with vacancies side by side. Other
-// contacts that balance at its density say less than its own, whose flexes are known.
+// Diameters of the start cannot grow, and yet its spheres can move, as in a crystal with vacancies side by side.
 Phase end_at_start(CrunchState &s, const PackingVerdict &of_start) {
   s.monitor.log(JAM_LOG_INFO, "back at the density of the start, a saddle with %lld flexes: ends there",
                 static_cast<long long>(of_start.result.flexes));
@@ -152,10 +139,13 @@ bool polish_contacts(CrunchState &s) {
   s.last.pairs.clear();  // polish left another graph in the system
   if (end == PolishEnd::interrupted) return stop_if_interrupted(s), false;
   s.found.polished = end == PolishEnd::done;
-  if (s.found.polished)
-    add_history_row(s);
-  else
-    s.monitor.log(JAM_LOG_WARNING, "polish refused: %s", text_of(end));
+  if (s.found.polished) {
+    HistoryRow &row = record_step(s, JAM_STEP_POLISH);
+    record_contacts(s, row, s.out.contacts.size(), s.out.contacts.coordination);
+    if (s.history.details()) report_step(s, JAM_PHASE_POLISH, row[JAM_HISTORY_GAIN], row[JAM_HISTORY_STEP_MAX]);
+  } else {
+    s.monitor.log(JAM_LOG_WARNING, "polish refused: %s", why_refused[static_cast<int>(end)]);
+  }
   return true;
 }
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/cell_change.hpp"
 #include "core/pair_rule.hpp"
-#include "crunch/approach/lp_step.hpp"
 #include "crunch/phases.hpp"
 #include "linalg/dot.hpp"
 #include "network/force_balance.hpp"
@@ -48,10 +48,9 @@ class Polish {
     return largest_entry(net.gap) > t_.closed_limit(p) ? PolishEnd::open_contact : PolishEnd::done;
   }
 
-  // Contacts that do not close together leave gaps r that are orthogonal to all motions, and so balance. Forces f - t r
-  // balance too, for any t. The contact whose force vanishes first, at t > 0, has its gap open once the rest closes:
-  // this is the exchange of a dual simplex method. False where there is none to drop, and in crystals, where gaps of
-  // many contacts too many say little.
+  // Contacts that do not close together leave gaps r that are orthogonal to all motions, and so balance, as forces
+  // f - t r do. The contact whose force vanishes first, at t > 0, has its gap open once the rest closes. False where
+  // there is none to drop, and in crystals, where gaps of many contacts too many say little.
   bool drops_gap(const Packing &p, ContactNetwork &net, PolishEnd end) const {
     if (end != PolishEnd::open_contact && end != PolishEnd::overlap) return false;
     const bool open =
@@ -82,7 +81,7 @@ class Polish {
   // state of self-stress the system is square and the step is Newton's; with more contacts it is least squares.
   void close_once(Packing &p, ContactNetwork &net) {
     const std::vector<double> a = relative_rows(p, net);
-    GapRows rows(net, p.dim, a, unit_ground, system_);
+    GapRows rows(net, p.dim, a, translation_ground, system_);
     if (!rows.factorise()) return;
     std::vector<double> wanted(net.gap), got;
     for (double &h : wanted) h = -h;
@@ -95,8 +94,9 @@ class Polish {
   bool close_all(Packing &p, ContactNetwork &net) {
     system_.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, threads_);
     const auto open = [&] { return excess_contacts(net, p) > 0 ? norm(net.gap) : largest_entry(net.gap); };
+    constexpr double rounding = 0.5 * std::numeric_limits<double>::epsilon();
     double worst = open();
-    for (int round = 0; round < Tuning::polish_steps && worst > Tuning::polish_end; ++round) {
+    for (int round = 0; round < Tuning::polish_steps && worst > rounding; ++round) {
       log("polish %d largest gap %.2e", round, largest_entry(net.gap));
       if (monitor_ && monitor_->interrupted()) return false;
       Packing p_old = p;
@@ -114,7 +114,7 @@ class Polish {
 
   // The nearest forces that balance on every sphere, in units of their mean.
   void balance_forces(const Packing &p, ContactNetwork &net) {
-    GapRows rows(net, p.dim, net.vector, unit_ground, system_);
+    GapRows rows(net, p.dim, net.vector, translation_ground, system_);
     if (!rows.factorise()) return;
     rows.balance(net.force);
     scale_to_mean(net);
@@ -127,8 +127,7 @@ class Polish {
   Monitor *monitor_;
 };
 
-// A free cell changes its shape too: a lattice of one sphere has nothing else that could leave its saddle. Lengths
-// change by less than the share, and the volume stays.
+// A lattice of one sphere has nothing but its cell that could leave a saddle. Lengths change by less than the share.
 void strain_at_random(Packing &p, Rng &rng, double share) {
   const size_t d = static_cast<size_t>(p.dim);
   std::vector<double> strain(d * d);
@@ -138,13 +137,6 @@ void strain_at_random(Packing &p, Rng &rng, double share) {
       if (open(a) && open(b)) strain[a * d + b] = (2.0 * rng.uniform() - 1.0) * share / static_cast<double>(d);
   PairList none;
   strain_at_fixed_volume(p, none, strain);
-}
-
-// Along a flex that only the curvature of a round wall ends, a step reaches a small part of the growth of its LP.
-// Newton's steps on contacts and forces may get there.
-bool curved_and_slow(const CrunchState &s) {
-  const int32_t reason = s.out.report.stop_reason;
-  return s.out.packing.container.curved() != 0 && (reason == JAM_STOP_STALLED || reason == JAM_STOP_LP_LIMIT);
 }
 
 // Spheres that come no nearer may be jammed. A limit of the call says nothing about them.
@@ -162,8 +154,12 @@ Phase identify(CrunchState &s) {
     return s.o.polish && recompress(s) ? Phase::approach : give_verdict(s, {});
   }
   s.out.contacts = make_contacts(s.out.packing, s.last.pairs, s.last.answer, s.last.active);
-  const bool slow = curved_and_slow(s);
-  if (s.out.report.stop_reason != JAM_STOP_NONE && !(slow && s.o.polish)) return end_early(s);
+  // Along a flex that only the curvature of a round wall ends, a step reaches a small part of the growth of its LP.
+  // Newton's steps on contacts and forces may get there.
+  const int32_t reason = s.out.report.stop_reason;
+  const bool slow =
+      s.out.packing.container.curved() != 0 && (reason == JAM_STOP_STALLED || reason == JAM_STOP_LP_LIMIT);
+  if (reason != JAM_STOP_NONE && !(slow && s.o.polish)) return end_early(s);
   if (s.o.polish && !polish_contacts(s)) return Phase::done;
   if (slow && !s.found.polished) return end_early(s);
   if (slow) stop(s, JAM_STOP_NONE, JAM_OK);
@@ -239,9 +235,6 @@ PolishEnd polish(Packing &p, ContactNetwork &net, NewtonSystem &system, int thre
   ContactNetwork better = net;
   const PolishEnd end = polisher.close_and_balance(q, better);
   if (end != PolishEnd::done) return end;
-  if (monitor && largest_entry(better.gap) > tuning.closed_limit(q))
-    monitor->log(JAM_LOG_WARNING, "polish: %zu contacts cannot all close, gaps of %.1e stay", better.size(),
-                 largest_entry(better.gap));
   p = std::move(q);
   net = std::move(better);
   return PolishEnd::done;

@@ -1,5 +1,5 @@
-#include "crunch/path/barrier_path.hpp"
-
+// One interior-point method for the true, curved problem instead of one for each LP. After every Newton step the
+// spheres move, the diameters grow, and the rows are computed again at the true distances; the multipliers stay.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,16 +13,46 @@
 namespace jam::inside {
 namespace {
 
+// How mu changes along the path.
+class BarrierSchedule {
+ public:
+  explicit BarrierSchedule(const Tuning &tuning) : t_(tuning) {}
+  // Factor of mu before the next Newton step. part: of the last step that was taken; mu_ratio: the first mu over the
+  // present one. A saddle shows by steps that stay short while the decrement no longer falls. The first two steps at a
+  // new mu may be short in any case.
+  double next_factor(double decrement, double part, double mu_ratio) {
+    if (steps_ == 0) short_steps_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
+    const bool falls = decrement < InteriorPointTuning::progress * least_;
+    if (steps_ > 0) {
+      least_ = std::min(least_, decrement);
+      if (decrement < t_.progress * mark_) short_steps_ = 0, mark_ = decrement;
+    }
+    if (steps_ > 2 && part < 0.5 && !falls) ++short_steps_;
+    ++steps_;
+    if (steps_ <= t_.max_steps_at_mu && short_steps_ < InteriorPointTuning::max_stalled) return 1.0;
+    steps_ = 0;
+    if (mu_ratio < t_.increase) return t_.reduction;
+    ++increases;
+    return t_.increase;
+  }
+  // True where the maximum at mu counts as reached.
+  bool centred(double decrement, double rows) {
+    if (!(decrement < t_.centred * rows)) return false;
+    steps_ = 0;
+    return true;
+  }
+  int increases = 0;
+
+ private:
+  const Tuning &t_;
+  double least_ = 0.0, mark_ = 0.0;  // lowest decrement at this mu; the one at which short steps began to count
+  int steps_ = 0, short_steps_ = 0;
+};
+
 class BarrierPath {
  public:
   BarrierPath(Packing &p, const BarrierPathControl &control, NewtonSystem &system, Monitor &monitor)
-      : p_(p),
-        control_(control),
-        system_(system),
-        monitor_(monitor),
-        t_(control.tuning),
-        schedule_(control.tuning),
-        matrix_(system, control.threads, control.tuning.single) {
+      : p_(p), control_(control), system_(system), monitor_(monitor) {
     b_.strain = control.strain;
   }
 
@@ -33,7 +63,7 @@ class BarrierPath {
     while (linearise()) {
       out.gap = gap_;
       out.factorisations = system_.factorisations - before;
-      out.increases = schedule_.increases();
+      out.increases = schedule_.increases;
       if (control_.on_step) control_.on_step(gap_, b_.pairs.size(), {b_.mu, first_mu_});
       monitor_.log(JAM_LOG_DEBUG,
                    "path %3d gap %.2e decrement %.1e balance %.1e phi %.12f pairs %zu coupled %zu correctors %d steps "
@@ -108,7 +138,7 @@ class BarrierPath {
     double sum = 0.0, scale = 0.0, worst = 0.0;
     for (size_t k = 0; k < b_.y.size(); ++k) {
       const double c = b_.lp.c[k], *a = &b_.lp.a[k * p_.dim];
-      b_.y[k] = std::min(std::max(b_.y[k], b_.mu / (t_.centrality * c)), t_.centrality * b_.mu / c);
+      b_.y[k] = std::min(std::max(b_.y[k], b_.mu / (Tuning::centrality * c)), Tuning::centrality * b_.mu / c);
       sum += b_.y[k];
       scale += b_.y[k] * std::sqrt(squared(a, p_.dim));
     }
@@ -121,12 +151,6 @@ class BarrierPath {
     for (size_t k = spheres; k < unbalanced_.size(); ++k) balance_ = std::max(balance_, std::fabs(unbalanced_[k]));
     balance_ = std::max(balance_, std::fabs(rest_));
     return std::isfinite(gap_) && std::isfinite(balance_);
-  }
-
-  bool direct() {
-    // The proximal term fixes translations and lets no sphere run far for a gain below the gap.
-    matrix_.weigh(p_, b_, gap_ / static_cast<double>(p_.n()));
-    return matrix_.factorise(gap_) && aim();
   }
 
   // Direction for changes target_ of the products y c that also takes the force balance and sum y = 1 up. False when
@@ -162,15 +186,16 @@ class BarrierPath {
   }
 
   bool newton() {
-    b_.mu *= schedule_.next_factor({decrement_, alpha_p_, first_mu_ / b_.mu});
-    if (!direct()) return false;
+    b_.mu *= schedule_.next_factor(decrement_, alpha_p_, first_mu_ / b_.mu);
+    // The proximal term fixes translations and lets no sphere run far for a gain below the gap.
+    matrix_.weigh(p_, b_, gap_ / static_cast<double>(p_.n()));
+    if (!matrix_.factorise(gap_) || !aim()) return false;
     move(correct());
     return alpha_p_ > 0.0;
   }
 
-  // Gondzio's correctors (Comput. Optim. Appl. 6, 137 (1996)) with the true gaps in place of the linear ones. A few
-  // rows that were slack cut a step short; one triangular solve pulls their products y c back into a band around mu.
-  // Returns the length of the best step.
+  // Gondzio's correctors with the true gaps in place of the linear ones: one triangular solve pulls products y c of
+  // rows that cut a step short back into a band around mu. Returns the length of the best step.
   double correct() {
     BarrierProblem::Best best = b_.search(main_);
     const double band = CorrectorTuning::band, ahead = CorrectorTuning::ahead;
@@ -229,11 +254,11 @@ class BarrierPath {
   const BarrierPathControl control_;
   NewtonSystem &system_;
   Monitor &monitor_;
-  const Tuning t_;
+  const Tuning &t_ = control_.tuning;
   BarrierProblem b_;
   BarrierStep main_, trial_;
-  BarrierSchedule schedule_;
-  PathMatrix matrix_;
+  BarrierSchedule schedule_{t_};
+  PathMatrix matrix_{system_, control_.threads, t_.single};
   std::vector<double> target_, row_, unbalanced_, rhs_;
   double reach_ = 0.0, travelled_ = 0.0, grown_ = 0.0, recent_ = 0.0;
   double first_mu_ = 0.0, end_ = 0.0, gap_ = 0.0, balance_ = 0.0, rest_ = 0.0;
@@ -246,31 +271,6 @@ class BarrierPath {
 BarrierPathResult follow_barrier_path(Packing &p, const BarrierPathControl &control, NewtonSystem &system,
                                       Monitor &monitor) {
   return BarrierPath(p, control, system, monitor).run();
-}
-
-// A saddle shows by steps that stay short while the decrement no longer falls. The first two steps at a new mu may be
-// short in any case. At a larger mu the same distance takes fewer steps.
-double BarrierSchedule::next_factor(const Step &last) {
-  if (steps_ == 0) short_steps_ = 0, least_ = mark_ = std::numeric_limits<double>::infinity();
-  const bool falls = last.decrement < InteriorPointTuning::progress * least_;
-  if (steps_ > 0) {
-    least_ = std::min(least_, last.decrement);
-    if (last.decrement < t_.progress * mark_) short_steps_ = 0, mark_ = last.decrement;
-  }
-  if (steps_ > 2 && last.part < 0.5 && !falls) ++short_steps_;
-  ++steps_;
-  if (steps_ <= t_.max_steps_at_mu && short_steps_ < t_.max_short_steps) return 1.0;
-  steps_ = 0;
-  // Its part in Gamma is (1 - mu rows) log Gamma: at a large mu the function grows without bound as all spheres shrink.
-  if (last.mu_ratio < t_.increase) return t_.reduction;
-  ++increases_;
-  return t_.increase;
-}
-
-bool BarrierSchedule::centred(double decrement, double rows) {
-  if (!(decrement < t_.centred * rows)) return false;
-  steps_ = 0;
-  return true;
 }
 
 }  // namespace jam::inside

@@ -3,8 +3,6 @@
 #include <utility>
 
 #include "core/pair_rule.hpp"
-#include "crunch/approach/lp_step.hpp"
-#include "crunch/path/barrier_path.hpp"
 #include "crunch/phases.hpp"
 #include "lp/interior_point.hpp"
 #include "network/force_balance.hpp"
@@ -13,9 +11,8 @@
 namespace jam::inside {
 namespace {
 
-// Spheres that lack a neighbour in one of the 2 d directions along the axes. A direction is covered when the line to
-// some neighbour has at least the component `covered` / sqrt(d) along it: of 2 d neighbours along axes turned as badly
-// as can be, the best has 1 / sqrt(d).
+// Spheres that lack a neighbour in one of the 2 d directions along the axes: a line to it with at least the component
+// `covered` / sqrt(d). Of 2 d neighbours along axes turned as badly as can be, the best has 1 / sqrt(d).
 std::vector<size_t> uncovered_spheres(const Packing &p, const PairList &pairs, double covered) {
   const size_t d = p.dim, sides = 2 * d;
   std::vector<double> cover(p.n() * sides, 0.0);
@@ -39,10 +36,10 @@ std::vector<size_t> uncovered_spheres(const Packing &p, const PairList &pairs, d
   return free;
 }
 
-// Pairs of stable spheres whose force on the path and gap are of one size, each in its own unit.
+// Pairs of stable spheres whose force on the path and gap are of one size, each in its own unit: within the square of
+// the factor that the path leaves to their product.
 int64_t count_undecided(const CrunchState &s, const std::vector<double> &path, const std::vector<int32_t> &z) {
-  const double carrying = static_cast<double>(s.last.lp.spheres()),
-               most = s.tuning.ambiguity_ratio * s.tuning.ambiguity_ratio;
+  const double carrying = static_cast<double>(s.last.lp.spheres()), most = Tuning::centrality * Tuning::centrality;
   int64_t count = 0;
   for (size_t k = 0; k < s.last.lp.rows(); ++k) {
     const double force = path[k] * carrying, gap = s.last.lp.c[k];
@@ -93,6 +90,34 @@ double duality_gap(const Packing &p, const ContactNetwork &net) {
   return gap / sum;
 }
 
+// The end of a crunch at a finite duality gap. On the path y c = mu for every row: a contact has much force and a small
+// gap, another pair the reverse. The linear program at this point parts those in between; a curved path may still part
+// some of them the other way. False where the forces of the LP do not balance or leave a larger gap than the options
+// allow, or when interrupted.
+bool ends_at_gap(CrunchState &s, const Multipliers &path) {
+  s.last.pairs = path.pairs;
+  s.last.lp = make_lp(s.out.packing, s.last.pairs, diameter_mean(s.out.packing));
+  ContactNetwork net;
+  const bool balanced = name_contacts(s, path.y, net) && balance(s, net);
+  if (stop_if_interrupted(s)) return false;
+  const double gap = balanced ? duality_gap(s.out.packing, net) : 0.0;
+  if (!balanced || gap > s.o.duality_gap) {
+    s.monitor.log(JAM_LOG_INFO, "finite gap: %s, the path goes on",
+                  balanced ? "larger than asked for" : "forces do not balance");
+    return false;
+  }
+  scale_to_mean(net);
+  jam_crunch_report &r = s.out.report;
+  r.stationary = 1;
+  r.duality_gap = gap;
+  r.undecided_contacts = count_undecided(s, path.y, net.coordination);
+  s.monitor.log(JAM_LOG_INFO, "finite gap: duality gap %.2e, %zu contacts, %lld undecided pairs", r.duality_gap,
+                net.size(), static_cast<long long>(r.undecided_contacts));
+  s.out.contacts = std::move(net);
+  stop(s, JAM_STOP_DUALITY_GAP, JAM_OK);
+  return true;
+}
+
 void add_history_row(CrunchState &s, double gap, size_t pairs, const PathPoint &at) {
   s.history.stage.path = at;
   HistoryRow &row = record_step(s, JAM_STEP_PATH);
@@ -109,8 +134,8 @@ Phase follow_path(CrunchState &s) {
   BarrierPathControl control;
   control.tuning = s.tuning;
   // Opens the gaps that the LP's own gain and the curvature of its step would close.
-  control.opening = std::max({0.5 * s.out.report.gain, s.tuning.opening * s.out.report.max_step * s.out.report.max_step,
-                              s.tuning.min_opening});
+  control.opening = std::max(
+      {0.5 * s.out.report.gain, s.tuning.opening * s.out.report.max_step * s.out.report.max_step, contact_gap_limit});
   control.strain = s.next.strain;
   control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap / s.tuning.lp_to_path_gap;
   if (s.next.strain.count() > 0) control.opening = s.tuning.free_opening;
@@ -140,30 +165,6 @@ Phase follow_path(CrunchState &s) {
   s.last.at_bound = 0;
   s.next.moved = path.reached ? 0.0 : 1.0;
   return Phase::approach;
-}
-
-bool ends_at_gap(CrunchState &s, const Multipliers &path) {
-  s.last.pairs = path.pairs;
-  s.last.lp = make_lp(s.out.packing, s.last.pairs, diameter_mean(s.out.packing));
-  ContactNetwork net;
-  const bool balanced = name_contacts(s, path.y, net) && balance(s, net);
-  if (stop_if_interrupted(s)) return false;
-  const double gap = balanced ? duality_gap(s.out.packing, net) : 0.0;
-  if (!balanced || gap > s.o.duality_gap) {
-    s.monitor.log(JAM_LOG_INFO, "finite gap: %s, the path goes on",
-                  balanced ? "larger than asked for" : "forces do not balance");
-    return false;
-  }
-  scale_to_mean(net);
-  jam_crunch_report &r = s.out.report;
-  r.stationary = 1;
-  r.duality_gap = gap;
-  r.undecided_contacts = count_undecided(s, path.y, net.coordination);
-  s.monitor.log(JAM_LOG_INFO, "finite gap: duality gap %.2e, %zu contacts, %lld undecided pairs", r.duality_gap,
-                net.size(), static_cast<long long>(r.undecided_contacts));
-  s.out.contacts = std::move(net);
-  stop(s, JAM_STOP_DUALITY_GAP, JAM_OK);
-  return true;
 }
 
 PairList select_neighbours(const Packing &p, double reach, double slope, const Tuning &tuning) {

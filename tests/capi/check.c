@@ -32,7 +32,12 @@ static jam_system *cubic(int32_t dim, int side, int32_t overlap, double sigma) {
 
 /* Saddles in all dimensions, and the same spheres apart. */
 CASE(cubic_lattices) {
-  for (int32_t dim = 2; dim <= JAM_MAX_DIM; ++dim) {
+#ifdef JAM_SANITIZED /* d = 7 and 8 take nine tenths of the time: the release build tries them */
+  const int32_t last = 6;
+#else
+  const int32_t last = JAM_MAX_DIM;
+#endif
+  for (int32_t dim = 2; dim <= last; ++dim) {
     OWNED jam_system *sys = cubic(dim, dim < 5 ? 3 : 2, JAM_OVERLAP_REFUSE, 1.0);
     jam_check_report r = check(sys, 1, JAM_NOT_JAMMED);
     assert_true(r.jammed == JAM_VERDICT_NO && r.strictly_jammed == JAM_VERDICT_NO && r.stationary == JAM_VERDICT_YES);

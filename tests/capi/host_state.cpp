@@ -125,13 +125,14 @@ struct Work {
   }
 };
 
+constexpr int spheres = 32;
 constexpr size_t room = 20000;
 
 void life(Work &w, Seen &seen, int dim, int model) {
   OWNED jam_system *sys = nullptr;
   jam_create_options o;
   w.call("jam_create_options_init", [&] { return jam_create_options_init(&o, sizeof o); });
-  o.dim = dim, o.n = 64, o.seed = 3, o.model = model, o.packing_fraction = dim == 2 ? 0.3 : 0.2;
+  o.dim = dim, o.n = spheres, o.seed = 3, o.model = model, o.packing_fraction = dim == 2 ? 0.3 : 0.2;
   w.call("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
   w.keep(sys);
   jam_set_progress(sys, on_progress, &seen);
@@ -158,7 +159,7 @@ void life(Work &w, Seen &seen, int dim, int model) {
     SIZED(jam_proof_report, proof);
     w.call("jam_prove", [&] { return jam_prove(copy, JAM_RIGIDITY_COLLECTIVE, nullptr, 0, &proof); });
     w.numbers.insert(w.numbers.end(), {proof.radius, proof.least_force, proof.fraction_error});
-    const size_t len = static_cast<size_t>(64 * dim);
+    const size_t len = static_cast<size_t>(spheres * dim);
     std::vector<double> parts(2 * len);
     w.call("jam_refined_positions", [&] {
       return jam_refined_positions(copy, nullptr, 0, parts.data(), len, parts.data() + len, len, nullptr);
@@ -179,7 +180,7 @@ void life(Work &w, Seen &seen, int dim, int model) {
 void soft_life(Work &w) {
   OWNED jam_system *sys = nullptr;
   DEFAULTS(create, o);
-  o.n = 64, o.packing_fraction = 0.75, o.overlap = JAM_OVERLAP_ALLOW;
+  o.n = spheres, o.packing_fraction = 0.75, o.overlap = JAM_OVERLAP_ALLOW;
   w.call("jam_create", [&] { return jam_create(&o, nullptr, &sys); });
   w.call("jam_decompress", [&] { return jam_decompress(sys, nullptr, nullptr); });
   w.keep(sys);

@@ -119,6 +119,17 @@ CASE(walls_stop) {
   assert_true(best.alpha > 0.3);  // they meet after 0.48: most of the way is used
 }
 
+// Where gaps weigh more than the density, a step that would take more than the diameters ends while Gamma is positive.
+CASE(diameters_stay_positive) {
+  Scene w;
+  make_scene(w, 3, 1.0, 1e-3, 8);
+  for (double &v : w.x.w) v += w.x.g + 10.0;
+  w.x.g = -10.0, w.b.mu = 1.0;
+  const BarrierProblem::Best best = w.b.search(w.x);
+  assert_true(best.alpha > 0.0 && 1.0 + best.alpha * w.x.g > 0.0);
+  assert_true(best.merit < 0.0 && std::fabs(brute(w, best.alpha) - best.merit) < 1e-9 * std::fabs(best.merit));
+}
+
 struct PathRun {
   BarrierPathResult end;
   std::vector<double> gaps, phi;

@@ -78,12 +78,11 @@ void check_observe_options(const jam_observe_options &o) {
     fail(JAM_E_ARGUMENT, "gap_bins is %d, it must be 0 or in 2..1000000", o.gap_bins);
   if (o.r_bins < 0 || o.r_bins > 1000000) fail(JAM_E_ARGUMENT, "r_bins is %d, it must be in 0..1000000", o.r_bins);
   check_positive(o.sample_every, "sample_every");
-  if (o.gap_bins > 0) check_range("gap_min", o.gap_min, limits::distance_min, 10.0);
-  if (o.r_bins > 0) check_range("r_max", o.r_max, limits::distance_min, limits::radius_max);
-  if (!(o.gap_min > 0.0) || !(o.gap_max > o.gap_min) || !(o.gap_max <= 10.0))
-    fail(JAM_E_ARGUMENT, "gap_min is %g and gap_max %g: they need 0 < gap_min < gap_max <= 10", o.gap_min, o.gap_max);
-  if (!(o.r_max > 0.0 && o.r_max <= limits::radius_max))
-    fail(JAM_E_ARGUMENT, "r_max is %g, it must be in (0, %g] mean diameters", o.r_max, limits::radius_max);
+  check_range("gap_min", o.gap_min, limits::distance_min, 10.0);
+  check_range("gap_max", o.gap_max, limits::distance_min, 10.0);
+  if (o.gap_max <= o.gap_min)
+    fail(JAM_E_ARGUMENT, "gap_max is %g, it must be above gap_min, which is %g", o.gap_max, o.gap_min);
+  check_range("r_max", o.r_max, limits::distance_min, limits::radius_max);
   check_not_negative(o.snapshot_every, "snapshot_every");
   if (!(o.snapshot_factor >= 1.0) || !std::isfinite(o.snapshot_factor))
     fail(JAM_E_ARGUMENT, "snapshot_factor is %g, it must be >= 1 and finite", o.snapshot_factor);

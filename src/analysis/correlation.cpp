@@ -10,14 +10,18 @@
 
 namespace jam::inside {
 
+void check_pair_correlation(const Packing &p, size_t kind_len, double r_max, int64_t bins) {
+  if (kind_len != 0 && kind_len != p.n())
+    fail(JAM_E_ARGUMENT, "kind has %zu numbers, it must have 0 or n = %zu", kind_len, p.n());
+  if (!(r_max >= limits::distance_min && r_max * diameter_mean(p) <= 4.0 * p.cell.side()))
+    fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be from %g to 4 boxes", r_max, limits::distance_min);
+  if (bins < 1 || bins > 100000000)
+    fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
+}
+
 std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
                                      double r_max, size_t bins) {
   const double unit = diameter_mean(p);
-  if (kind_len != 0 && kind_len != p.n())
-    fail(JAM_E_ARGUMENT, "kind has %zu numbers, it must have 0 or n = %zu", kind_len, p.n());
-  if (!(r_max >= limits::distance_min && r_max * unit <= 4.0 * p.cell.side()))
-    fail(JAM_E_ARGUMENT, "r_max is %g mean diameters, it must be from %g to 4 boxes", r_max, limits::distance_min);
-  if (bins < 1 || bins > 100000000) fail(JAM_E_ARGUMENT, "bins is %zu, it must be in 1..1e8", bins);
   auto is = [&](int32_t i, int32_t which) { return which < 0 || kind_len == 0 || kind[i] == which; };
   std::vector<char> of(p.n()), with(p.n());
   double na = 0.0, nb = 0.0;

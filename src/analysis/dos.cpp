@@ -125,12 +125,20 @@ struct Average {
   }
 };
 
+[[noreturn]] void refuse_bins(double low, double high) {
+  fail(JAM_E_ARGUMENT, "low is %g and high is %g: the bins need low < high, both finite", low, high);
+}
+
 }  // namespace
 
-DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o) {
+void check_dos_options(const jam_dos_options &o) {
   if (o.moments < 8 || o.moments > 1000000) fail(JAM_E_ARGUMENT, "moments is %d, it must be in 8..1e6", o.moments);
   if (o.vectors < 2 || o.vectors > 100000) fail(JAM_E_ARGUMENT, "vectors is %d, it must be in 2..1e5", o.vectors);
   if (o.points < 1 || o.points > 10000000) fail(JAM_E_ARGUMENT, "points is %d, it must be in 1..1e7", o.points);
+  if (std::isinf(o.low) || std::isinf(o.high) || o.low >= o.high) refuse_bins(o.low, o.high);
+}
+
+DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o) {
   const BlockMatrix h = make_hessian(g, w);
   const size_t n = h.rows(), points = static_cast<size_t>(o.points), moments = static_cast<size_t>(o.moments);
   const Interval span{smallest_eigenvalue(g, w), largest_eigenvalue(g, h)};
@@ -138,8 +146,7 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
     fail(JAM_E_TOO_FEW, "%d stable spheres have no density of states", g.nodes);
   const double first = std::isnan(o.low) ? -std::sqrt(-span.low) : o.low;
   const double last = std::isnan(o.high) ? std::sqrt(span.high) : o.high;
-  if (!(last > first) || !std::isfinite(first) || !std::isfinite(last))
-    fail(JAM_E_ARGUMENT, "low is %g and high is %g: the bins need low < high, both finite", first, last);
+  if (!(last > first)) refuse_bins(first, last);
   DensityOfStates out;
   out.step = (last - first) / static_cast<double>(points);
   for (size_t k = 0; k < points; ++k) out.omega.push_back(first + out.step * (static_cast<double>(k) + 0.5));

@@ -53,6 +53,7 @@ struct DensityOfStates {
   std::vector<double> cumulative, cumulative_error;  // share of modes below the upper end of the bin
   double step = 0.0;                                 // width of a bin
 };
+void check_dos_options(const jam_dos_options &o);
 // Kernel polynomial method (Weisse et al., Rev. Mod. Phys. 78, 275 (2006)).
 DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights &w, const jam_dos_options &o);
 

@@ -48,6 +48,7 @@ std::vector<double> fabric_tensor(const ContactNetwork &network, int dim);
 size_t count_local_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
 std::vector<double> local_values(const Packing &p, const ContactNetwork &network, int32_t quantity, int32_t which);
 
+void check_pair_correlation(const Packing &p, size_t kind_len, double r_max, int64_t bins);
 // g_ab(r) in `bins` bins up to r_max mean diameters. kind: one label a sphere or empty; a, b < 0: any.
 std::vector<double> pair_correlation(const Packing &p, const int32_t *kind, size_t kind_len, int32_t a, int32_t b,
                                      double r_max, size_t bins);

@@ -63,9 +63,10 @@ jam_status jam_density_of_states(jam_system *sys, const jam_hessian_options *h, 
     const jam_hessian_options options = take_hessian_options(h);
     jam_dos_options full = default_dos_options();
     take_options(o, full);
+    check_dos_options(full);
     need_network(sys);
     if (empty_network(sys)) return JAM_NOT_JAMMED;
-    const size_t points = full.points > 0 ? static_cast<size_t>(full.points) : 0;
+    const auto points = static_cast<size_t>(full.points);
     if (!made.wanted(points, needed)) return JAM_OK;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const DensityOfStates dos = density_of_states(g, contact_weights(g, diameter_mean(sys->packing), options), full);

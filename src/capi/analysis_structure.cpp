@@ -10,11 +10,6 @@ using namespace jam::inside;
 
 namespace {
 
-void check_bins(int64_t bins) {
-  if (bins < 1 || bins > 100000000)
-    fail(JAM_E_ARGUMENT, "bins is %lld, it must be in 1..1e8", static_cast<long long>(bins));
-}
-
 jam_correlation_options default_correlation_options() {
   jam_correlation_options o{};
   o.struct_size = sizeof o;
@@ -133,10 +128,10 @@ jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_opt
     jam_correlation_options full = default_correlation_options();
     take_options(o, full);
     if (kind_len) need(kind, "kind");
-    check_bins(full.bins);
-    if (!out && needed && out_len == 0) return *needed = static_cast<size_t>(full.bins), JAM_OK;
-    const std::vector<double> g =
-        pair_correlation(sys->packing, kind, kind_len, full.a, full.b, full.r_max, static_cast<size_t>(full.bins));
+    check_pair_correlation(sys->packing, kind_len, full.r_max, full.bins);
+    const auto bins = static_cast<size_t>(full.bins);
+    if (!array_wanted(bins, out, out_len, needed)) return JAM_OK;
+    const std::vector<double> g = pair_correlation(sys->packing, kind, kind_len, full.a, full.b, full.r_max, bins);
     return give_array(g.data(), g.size(), out, out_len, needed);
   });
 }

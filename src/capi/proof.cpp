@@ -161,9 +161,9 @@ jam_status jam_refined_positions(const jam_system *sys, const double *ratio, siz
     if (!needed && !high && !low) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     check_output(high, high_len, size, "high");
     check_output(low, low_len, size, "low");
+    ProofScene scene = take_scene(sys, ratio, ratio_len);
     if (needed) *needed = size;
     if (!high && !low) return JAM_OK;
-    ProofScene scene = take_scene(sys, ratio, ratio_len);
     ProofEquations equations;
     Proof proof;
     if (!find_proof(scene, equations, proof)) {

@@ -68,7 +68,7 @@ CASE(bad_arguments_are_refused) {
   SAYS(jam_gaps(t, 1000.0, 0, NULL, 0, NULL, 0, &m), JAM_E_MEMORY, "B, more than "); /* in units that fit */
   DEFAULTS(correlation, pairs);
   pairs.bins = 10;
-  assert_int_equal(jam_pair_correlation(s, &pairs, i, 3, x, 10, &m), JAM_E_ARGUMENT);
+  assert_int_equal(jam_pair_correlation(s, &pairs, i, 3, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_structure_factor(s, INFINITY, JAM_STRUCTURE_COLUMNS, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_structure_factor(s, 1e7, JAM_STRUCTURE_COLUMNS, NULL, 0, &m), JAM_E_ARGUMENT);
   assert_int_equal(jam_bond_order(s, 0, 1.2, NULL, 0, &m), JAM_E_ARGUMENT);

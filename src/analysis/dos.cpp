@@ -154,8 +154,10 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
   std::vector<double> mu(moments), v(n);
   for (int32_t r = 0; r < o.vectors; ++r) {
     Rng rng(o.seed, Stream::analysis_start, static_cast<uint64_t>(r) << 32);
-    for (double &x : v) x = rng.bits() & 1 ? 1.0 : -1.0;
-    g.remove_symmetries(v.data());
+    do {  // of a few spheres, the signs may be those of a translation
+      for (double &x : v) x = rng.bits() & 1 ? 1.0 : -1.0;
+      g.remove_symmetries(v.data());
+    } while (!(dot(v, v) > DosTuning::rounding));
     moments_of(h, span, v, mu, [&] { CallScope::report_share(r, static_cast<double>(r) / o.vectors); });
     // Each vector over its own length: the integral is 1 for every one of them.
     for (size_t m = moments; m-- > 0;) mu[m] *= jackson(m, moments) / mu[0];

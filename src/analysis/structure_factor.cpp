@@ -93,7 +93,9 @@ std::vector<int> most_coefficients(const Packing &p, double reach) {
   const Reciprocal lattice(p.cell);
   std::vector<int> out;
   for (int c = 0; c < p.dim; ++c)
-    out.push_back(p.cell.repeats(c) ? static_cast<int>(std::floor(reach * lattice.length[c])) : 0);
+    out.push_back(p.cell.repeats(c)
+                      ? static_cast<int>(std::min(std::floor(reach * lattice.length[c]), FourierTuning::coefficients))
+                      : 0);
   return out;
 }
 

@@ -29,8 +29,9 @@ struct BlochTuning {
 
 // ---- S(q): sums over spheres, exact or by a grid to 1e-12 of their number
 struct FourierTuning {
-  static constexpr double products = 1e8;  // of wave vectors and spheres: fewer are summed exactly
-  static constexpr double longest = 54.0;  // seconds
+  static constexpr double products = 1e8;      // of wave vectors and spheres: fewer are summed exactly
+  static constexpr double longest = 54.0;      // seconds
+  static constexpr double coefficients = 5e8;  // along an axis: more take longer; twice as many fit an int
   static constexpr double second_a_product = 2.7e-9, second_a_cell = 1.5e-9, second_a_point = 6e-9;
   // Of the kernel: points across, grid points over waves, decay over the one at which aliases are as large as the cut.
   static constexpr int width = 16, fine_steps = 32;
@@ -54,6 +55,7 @@ struct DenseTuning {
 // ---- density of states
 struct DosTuning {
   static constexpr double above_largest = 1.05;  // bound over the Ritz value, to which two residuals are added
+  static constexpr double rounding = 1e-9;       // squared length of signs that were a symmetry alone
 };
 
 // ---- pairs within a distance, and the blocks in which voro++ searches for neighbours

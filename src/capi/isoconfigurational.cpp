@@ -159,16 +159,16 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
   return guard_reporting(sys, report, [&]() -> Answer {
     jam_monte_carlo_options full = default_monte_carlo_options();
     take_options(o, full);
+    check_flag(full.resume, "resume");
+    if (!full.resume && full.first_sweep == -1) full.first_sweep = sys->sweeps;
     check_monte_carlo_options(full);
     std::unique_ptr<MonteCarloRun> stage;
-    check_flag(full.resume, "resume");
     if (full.resume) {
       if (!sys->paused || sys->paused->phase() != JAM_PHASE_MONTE_CARLO)
         fail(JAM_E_STATE, "resume is 1 but no Monte Carlo run was stopped early on this handle");
       static_cast<const MonteCarloRun &>(*sys->paused).check_resumed(full);
       stage.reset(static_cast<MonteCarloRun *>(sys->paused.release()));
     } else {
-      if (full.first_sweep < 0) full.first_sweep = sys->sweeps;
       stage = std::make_unique<MonteCarloRun>(sys->packing, full);
     }
     Limits limits;

@@ -122,6 +122,7 @@ void pin_rotations(ProofScene &s) {
   s.pin.clear();
   if (s.container.rotations() == 0) return;
   s.pin.assign(s.ratio.size() * d, 0);
+  if (s.nodes() == 0) return;
   std::vector<std::vector<double>> turn;
   for (int q = 0; q < s.container.rotations(); ++q) {
     turn.emplace_back(s.nodes() * d);

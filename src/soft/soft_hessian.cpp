@@ -35,7 +35,7 @@ std::vector<size_t> tied_coordinates(const SoftState &state, const std::vector<c
       if (stable[i]) velocity(i, &motion.back()[i * d]);
   };
   for (size_t c = 0; c < d; ++c)
-    if ((walls.closed() >> c & 1u) == 0) add_motion([&](size_t, double *v) { v[c] = 1.0; });
+    if ((walls.closed() >> c & 1u) == 0) add_motion([&](size_t, double *v) { v[c] = state.diameter_mean(); });
   for (int q = 0; q < walls.rotations(); ++q)
     add_motion([&](size_t i, double *v) {
       double x[JAM_MAX_DIM];

@@ -46,6 +46,8 @@ class Network(unittest.TestCase):
         np.testing.assert_allclose(low.participation, (low.vectors**2).sum(2).__pow__(2).sum(1), rtol=1e-9)
         with self.assertRaises(ValueError):
             s.modes(which="some")
+        with self.assertRaisesRegex(TypeError, "as k"):
+            s.modes(count=5)
 
     def test_distributions(self):
         s, r = self.s, self.r

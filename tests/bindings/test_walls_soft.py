@@ -82,6 +82,17 @@ class Minima(unittest.TestCase):
         self.assertTrue(r.converged)
 
 
+    def test_the_unit_of_length_changes_no_bit(self):
+        unit = 2.0**60
+        for name in ("strip", "tube"):
+            near = soft(name, 24, 3, dense(name))
+            scene = dict(SCENES[name], cell=unit * near.cell)
+            scene.pop("dim", None)
+            far = jam.System.from_arrays(unit * near.positions, unit * near.diameters, overlap="allow", **scene)
+            near.relax(), far.relax()
+            np.testing.assert_array_equal(far.positions, unit * near.positions)
+
+
 class Known(unittest.TestCase):
     def test_two_disks_and_two_balls_rest_on_a_diameter(self):
         # a radius, x distance from the centre: (a - 1/2 + x) / a^2 = (2 a - 2 x) / (4 a^2), so x = (1 - a) / 3.

@@ -38,6 +38,23 @@ CASE(very_unequal_spheres) {
       }
 }
 
+/* Most gaps are between small spheres, thousands of their diameters wide: the start of the path stays dense. */
+CASE(many_small_spheres_in_a_cylinder) {
+  double diameters[30];
+  DEFAULTS(create, o);
+  DEFAULTS(compress, c);
+  SIZED(jam_crunch_report, r);
+  for (int k = 0; k < 30; ++k) diameters[k] = k < 5 ? 1e4 : 1.0;
+  o.n = 30, o.seed = 3, o.packing_fraction = 0.1, o.container = JAM_CONTAINER_CYLINDER;
+  OWNED jam_system *sys = created_from(&o, NULL, 0, diameters, 30);
+  c.growth_rate = 0.1, c.pressure = 1e4;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_OK);
+  const double before = info_of(sys).packing_fraction;
+  assert_int_equal(jam_crunch(sys, NULL, &r), JAM_OK);
+  assert_int_equal(r.jammed, 1);
+  assert_valid(sys, before);
+}
+
 /* A small bound of the steps, by option, makes the lists as short. */
 CASE(short_steps) {
   DEFAULTS(crunch, c);

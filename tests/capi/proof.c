@@ -30,6 +30,13 @@ CASE(bad_arguments_are_refused) {
   SAYS(jam_write_proof(sys, file, JAM_RIGIDITY_COLLECTIVE, NULL, 0), JAM_E_STATE, "no sphere is stable");
   assert_null(fopen(file, "r"));
   jam_destroy(sys);
+  DEFAULTS(create, o);
+  o.n = 20, o.container = JAM_CONTAINER_BALL;
+  sys = created(&o); /* no stable sphere whose rotation could be fixed */
+  assert_int_equal(jam_contacts_from_geometry(sys, NULL, NULL), JAM_NOT_JAMMED);
+  assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &r), JAM_AMBIGUOUS);
+  SAYS(jam_write_proof(sys, file, JAM_RIGIDITY_COLLECTIVE, NULL, 0), JAM_E_STATE, "no sphere is stable");
+  jam_destroy(sys);
   sys = jammed();
   memcpy(ratio, sizes, sizeof ratio);
   assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, ratio, n - 1, &r), JAM_E_ARGUMENT);

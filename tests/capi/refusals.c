@@ -200,6 +200,8 @@ CASE(monte_carlo) {
   REFUSED_WITH(SOFTLY, monte_carlo, swap_share, 1);
   REFUSED_WITH(SOFTLY, monte_carlo, sweeps, 0);
   REFUSED_WITH(SOFTLY, monte_carlo, run, -1);
+  /* the last sweep has no number */
+  REFUSED_SAYING("numbers go from 0", (SOFTLY, o.sweeps = 2000), monte_carlo, first_sweep, -2, 0x1p63 - 1024);
   REFUSED_WITH(SOFTLY, monte_carlo, wall_time, 0);
 }
 

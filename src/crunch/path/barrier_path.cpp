@@ -104,7 +104,10 @@ class BarrierPath {
       const size_t half = std::min(gaps.size() - 1, static_cast<size_t>(p_.dim) * p_.n() / 2);
       std::nth_element(gaps.begin(), gaps.begin() + half, gaps.end());
       const double smallest = *std::min_element(gaps.begin(), gaps.end());
-      const double opening = std::max(t_.opening * gaps[half], control_.opening);
+      // Between small spheres of a wide mixture gaps are many of their diameters: no more than the list reaches beyond
+      // mean ones.
+      const double reach = reach_ / b_.unit, widest = reach * (2.0 + reach);
+      const double opening = std::max(std::min(t_.opening * gaps[half], widest), control_.opening);
       if (smallest < opening)
         for (double &s : p_.diameter) s *= std::sqrt((1.0 + smallest) / (1.0 + opening));
     }

@@ -1,6 +1,7 @@
 // A Monte Carlo run in progress: samples, progress, report.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
@@ -66,6 +67,14 @@ void MonteCarloRun::archive(Archive &a) {
   if (engine_) engine_->archive(a);
 }
 
+// -1: the first sweep has no number yet.
+static void check_sweep_numbers(int64_t first, int64_t sweeps) {
+  constexpr int64_t last = std::numeric_limits<int64_t>::max();
+  if (first < -1 || first > last - sweeps)
+    fail(JAM_E_ARGUMENT, "%lld sweeps from number %lld on: numbers go from 0 to %lld", static_cast<long long>(sweeps),
+         static_cast<long long>(first), static_cast<long long>(last));
+}
+
 void MonteCarloRun::check_resumed(const jam_monte_carlo_options &o) const {
   const jam_monte_carlo_options usual = default_monte_carlo_options();
   const auto look = [&](const char *name, auto member) {
@@ -78,6 +87,7 @@ void MonteCarloRun::check_resumed(const jam_monte_carlo_options &o) const {
   look("energy_scale", &Options::energy_scale), look("temperature", &Options::temperature);
   look("step", &Options::step), look("acceptance", &Options::acceptance), look("swap_share", &Options::swap_share);
   look("run", &Options::run), look("first_sweep", &Options::first_sweep);
+  check_sweep_numbers(options_.first_sweep, o.sweeps);
 }
 
 Packing MonteCarloRun::current() const {
@@ -202,7 +212,7 @@ void check_monte_carlo_options(const jam_monte_carlo_options &o) {
     fail(JAM_E_ARGUMENT, "swap_share is %g, it must be in [0, 1)", o.swap_share);
   check_at_least(o.sweeps, 1, "sweeps");
   check_at_least(o.run, 0, "run");
-  if (o.first_sweep < -1) fail(JAM_E_ARGUMENT, "first_sweep is %lld", static_cast<long long>(o.first_sweep));
+  check_sweep_numbers(o.first_sweep, o.sweeps);
   check_positive(o.wall_time, "wall_time");
 }
 

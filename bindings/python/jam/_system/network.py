@@ -134,6 +134,8 @@ class Network(Analysis):
         >>> len(modes), (modes.values > 0).all()
         (5, True)
         """
+        if "count" in options:
+            raise TypeError("modes() takes the number of modes as k, not as count")
         handle = self.handle
         with self._reporting(progress):
             h = option_struct("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})

@@ -1655,7 +1655,7 @@ typedef struct jam_correlation_options {
 } jam_correlation_options;
 JAM_API jam_status jam_correlation_options_init(jam_correlation_options *o, size_t size);
 /* g_ab(r) of labels a, b in kind (or NULL). Between walls, d < 4: relative to evenly spread centres. @shape kind (n),
- * out (bins) */
+ * out (bins) @errors UNSUPPORTED (walls in d > 3, a cone, spheres as wide as the container) */
 JAM_API jam_status jam_pair_correlation(const jam_system *sys, const jam_correlation_options *o, const int32_t *kind,
                                         size_t kind_len, double *out, size_t out_len, size_t *needed);
 /* Shifts A_ij of the Mari-Kurchan model, unit of the box: r_ij = r_i - r_j + A_ij by nearest images, A_ji = -A_ij.

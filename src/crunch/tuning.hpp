@@ -113,9 +113,9 @@ struct EstimateTuning {
   // Fronts run at this part of the rate of one large product. All else that a step does: seconds a pair.
   static constexpr double front_rate = 0.5, per_pair = 4e-7;
   static constexpr double grown = 0.3;  // a list gets shorter after this part of the growth to jamming
-  // Nine of ten crunches take between the estimate over and times the first: those of grown spheres and mixtures of 128
-  // to 512, d = 2 and 3, took 0.75 to 3.8 times it. The second is for crystals (0.02 to 100 times) and disks that
-  // differ in size by less than `alike` (1.4 to 23 times; twenty of 1000: median 19, one 705).
+  // Nine of ten crunches take between the estimate over and times the first: 33 of estimate.py took 0.5 to 3.9 times,
+  // nine mixtures 0.39 to 4.6. The second is for crystals and for disks that differ in size by less than `alike`: by an
+  // earlier estimate of more numbers 0.02 to 100 times, and 1.4 to 23 (twenty of 1000: median 19, one 705).
   static constexpr double scatter = 7.0, wide_scatter = 300.0, alike = 1.1;
   static constexpr double too_high = 2.0;  // memory over what crunches took: to 1.6 in estimate.py, 1.8 in d = 8
 };

@@ -81,7 +81,6 @@ class Minima(unittest.TestCase):
         self.assertAlmostEqual(energy({"walls": "xz"}, s.positions, s) / r.energy, 1, 10)
         self.assertTrue(r.converged)
 
-
     def test_the_unit_of_length_changes_no_bit(self):
         unit = 2.0**60
         for name in ("strip", "tube"):

@@ -104,6 +104,17 @@ def test_scenes_are_not_mixed():
             assert refused(ValueError, first.merge, replace(second, first_run=20 * (k + 1)))
 
 
+def test_without_a_run_means_say_why(packing):
+    stopped = packing.isoconf([2], runs=4, density_ratio=0.99, wall_time=1e-9)
+    for none, why in ((stopped, "stopped"), (replace(stopped, status=jam.StatusCode.NOT_CONVERGED), "cannot move")):
+        for mean in (lambda: none.msd, lambda: none.time, lambda: nj.propensity(none)):
+            try:
+                mean()
+                assert False
+            except ValueError as error:
+                assert "no run was made" in str(error) and why in str(error)
+
+
 def test_campaign(packing):
     """A campaign that was stopped goes on to the same bits; another one does not touch its file."""
     options = dict(density_ratio=0.99, block=4, keep=[0])
@@ -234,6 +245,7 @@ if __name__ == "__main__":
     test_masses()
     test_runs(packing)
     test_scenes_are_not_mixed()
+    test_without_a_run_means_say_why(packing)
     test_campaign(packing)
     test_edges(packing)
     test_monte_carlo(packing)

@@ -107,6 +107,13 @@ class Results(unittest.TestCase):
 
 
 class Statuses(unittest.TestCase):
+    def test_tensors_of_a_network_without_contacts_are_nan(self):
+        s = disks()
+        self.assertEqual(s.contacts_from_geometry().contacts, 0)
+        for tensor in (s.stress, s.fabric_tensor):
+            self.assertEqual((tensor().shape, np.isnan(tensor()).all()), ((2, 2), True))
+            self.assertEqual(s.status, jam.StatusCode.NOT_JAMMED)
+
     def test_reports_carry_status_and_text(self):
         s = disks()
         fluid = s.rigidity()

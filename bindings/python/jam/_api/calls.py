@@ -156,7 +156,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
     answer = function(*first, *passed)
     status, *scalars = answer if isinstance(answer, (list, tuple)) else [answer]
     count = next((k for k, arg in enumerate(asked) if arg in ("needed", "rows")), None)
-    if fills and count is not None and status in (0, StatusCode.AMBIGUOUS):
+    if fills and count is not None and status in (0, StatusCode.AMBIGUOUS, StatusCode.NOT_JAMMED):
         m, spheres = scalars[count], raw.jam_view(handle, raw.JAM_VIEW_DIAMETERS)[1][1] if on_system else 0
         for arg, at, ctype in fills:
             shape = _shape(extents.get(arg, ("m",)), asked[count], m, dim, spheres, len(fills) == 1)

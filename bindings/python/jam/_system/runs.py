@@ -67,6 +67,9 @@ class Runs:
 
     def total(self, name: str, weights: Any = None) -> Array:
         """The sum of a quantity over runs, blocks added in their order; weights (b,): how often each block counts."""
+        if self.blocks == 0:
+            stalled = self.status == StatusCode.NOT_CONVERGED
+            raise ValueError("no run was made: " + ("the first cannot move" if stalled else "the call was stopped before the first ended"))
         values = getattr(self, name) if name in _SUMS or name == "counts" else self.series[name]
         if weights is None:
             out = np.zeros_like(values[0])
@@ -150,7 +153,7 @@ class Runs:
         arrays.update({"series_" + k: v for k, v in self.series.items()})
         arrays.update({f"kept_{k}": v for k, v in self.kept.items()})
         arrays = {k: np.asarray(v) for k, v in arrays.items()}
-        with replacing(path, "w+b") as file:
+        with replacing(path) as file:
             np.savez(file, **arrays, sha256=np.array(_digest(arrays)))
 
     @classmethod

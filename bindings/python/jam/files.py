@@ -15,7 +15,7 @@ from ._api.arrays import Array
 from ._api.calls import not_cancelled
 from ._api.results import Modes
 from ._api.shown import only
-from ._formats import ase, gsd
+from ._formats import frames, gsd
 from ._formats.replacing import replacing
 from .errors import StateError
 from .system import System
@@ -100,7 +100,7 @@ def write_csv(system: System, path: str | os.PathLike[str]) -> None:
     columns, names = [system.positions, system.diameters[:, None]], _axes(system.dim) + ["diameter"]
     with suppress(StateError):  # there is no network before a crunch
         columns, names = columns + [system.coordination[:, None]], names + ["contacts"]
-    with replacing(path, "w") as file:
+    with replacing(path) as file:
         np.savetxt(file, np.hstack(columns), fmt="%.17g", delimiter=",", header=",".join(names), comments="")
 
 
@@ -112,8 +112,8 @@ def write_contacts_csv(system: System, path: str | os.PathLike[str]) -> None:
 def _write_table(path: str | os.PathLike[str], made: tuple[int, str]) -> None:
     """A table as the code of jam-pack has made it."""
     not_cancelled(made[0])
-    with replacing(path, "w") as file:
-        file.write(made[1])
+    with replacing(path) as file:
+        file.write(made[1].encode("ascii"))
 
 
 def write_spectrum_csv(modes: Modes, path: str | os.PathLike[str]) -> None:
@@ -199,4 +199,4 @@ def read_ase(
     **options
         As of System.from_arrays; overlap='shrink' for files with few digits.
     """
-    return System._noted(*ase.arguments(path, diameters, radii=radii, dim=dim, frame=frame, **options))
+    return System._noted(*frames.of_ase(path, diameters, radii, dim, frame, options))

@@ -13,7 +13,7 @@ from ._api.given import cell_of, enclosure_of, layout_of, positions_of, refuse_s
 from ._api.options import option_struct, other_word
 from ._api.results import Contacts, Modes
 from ._api.size_laws import density_of
-from ._formats import ase, gsd
+from ._formats import frames, gsd
 from ._system.converting import Converting
 from ._system.copies import Copies
 from ._system.passing_file import passing_file
@@ -229,8 +229,8 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
             As of `from_arrays`.
         """
         notes: list[str] = []
-        named = {key: options.pop(key, None) for key in ase.NAMED}
-        given = ase.of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where="atoms", named=named)
+        named = {key: options.pop(key, None) for key in frames.NAMED}
+        given = frames.of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where="atoms", named=named)
         return cls._noted(dict(given, **options), notes)
 
     @classmethod

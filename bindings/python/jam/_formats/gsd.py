@@ -128,23 +128,18 @@ class _Frame:
         return placed(self.path, x, cell, -0.5 * cell[: self.dim].sum(0), self.dim, notes)
 
     def doubles(self) -> list[Array] | None:
-        """Positions, diameters and cell that libjam kept, where they belong to this frame: its float32 are the rounded doubles.
-
-        GSD hands out frame 0's log for frames without one. Those are left out when they do not fit; a frame's own are
-        refused, for another program changed one of the two.
-        """
-        kept = [np.asarray(self.one.log[name]) for name in _KEPT if self.one.log.get(name) is not None]
-        if len(kept) < len(_KEPT):
+        """Positions, diameters and cell that libjam kept in this frame: its float32 are the rounded doubles. None where it has
+        none, though GSD hands out those of frame 0."""
+        if not all(self.file.chunk_exists(frame=self.at, name="log/" + name) for name in _KEPT):
             return None
-        if not (wrong := self.difference(*kept)):
-            return kept
-        if any(self.file.chunk_exists(frame=self.at, name="log/" + name) for name in _KEPT):
+        kept = [np.asarray(self.one.log[name]) for name in _KEPT]
+        if wrong := self.difference(*kept):
             raise bad(
                 self.path,
                 f"{wrong} of frame {self.at} does not agree with the copy of libjam in log/jam: another program changed the "
                 "frame. doubles=False reads the frame alone",
             )
-        return None
+        return kept
 
     def difference(self, positions: Array, diameters: Array, cell: Array) -> str:
         d, n, one = self.dim, self.n, self.one

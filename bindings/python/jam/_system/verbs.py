@@ -23,7 +23,7 @@ from .runs import Runs, make_runs
 Report = TypeVar("Report")
 
 
-def _stage(given: Any) -> dict[str, float]:
+def stage_of(given: Any) -> dict[str, float]:
     """Options of one stage of growth."""
     if isinstance(given, Mapping):
         return dict(given)
@@ -128,7 +128,7 @@ class Verbs(Observing):
             options["packing_fraction"] = density_of(options.get("packing_fraction"), porosity)
         if stages is None:
             report = self._verb("compress", MdReport, progress, options or None)
-        made = [_stage(s) for s in stages or ()]
+        made = [stage_of(s) for s in stages or ()]
         idle = [k for k, v in options.items() if v is not None and made and all(k in given for given in made)]
         if idle:
             raise ValueError(f"{', '.join(idle)} would have no effect: every stage gives its own")

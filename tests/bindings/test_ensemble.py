@@ -220,7 +220,7 @@ class Campaigns(InFolder):
                 e.run(range(seeds), pool, progress=False)
             ended.set()
             thread.join()
-            status = e.run(range(seeds), pool, progress=False, retry=True)  # what lost three workers
+            status = e.run(range(seeds), pool, progress=False, retry=True)  # what lost its worker
         self.assertEqual((status.done, status.failed), (seeds, 0))
         self.assertEqual({path: path.stat().st_mtime_ns for path in seen}, seen)  # finished files were neither lost nor written again
         for entry in e:

@@ -4,9 +4,7 @@ import unittest
 import numpy as np
 
 import jam
-from jam.ensemble import Ensemble
-from jam.ensemble.making import begin
-from jam.ensemble.protocol import complete
+from jam.ensemble import Ensemble, begin, complete
 from packings import SMALL, InFolder
 
 

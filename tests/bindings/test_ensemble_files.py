@@ -56,7 +56,7 @@ class Protocols(unittest.TestCase):
             (dict(n=10, diameters={"law": "bidisperse", "rato": 1.3}), "bidisperse has no rato; it takes ratio and share"),
             (dict(n=10, diameters={"law": "bidisperse", "ratio": "a"}), "a ratio > 0"),
             (dict(n=10, diameters={"law": "lognormal", "ratio": 1.3}), "no law has ratio; there are .*deviation"),
-            (dict(n=10, analysis={"gap": {}}), "near to it: gaps"),
+            (dict(n=10, analysis={"gap": {}}), "did you mean gaps"),
             (dict(SMALL, packing_fraction=0.95), "no packing of seeds 1, 2, 3 can begin"),
             (dict(n=10, lattice="fcc"), "4 m"),
             (dict(n=10, stages=[{"verb": "shake"}]), "shake"),

@@ -205,14 +205,14 @@ class Failures(Case):
             raise next(wrong)
 
         for _ in range(3):
-            with unittest.mock.patch("jam.ensemble.campaign.make", fail):
+            with unittest.mock.patch("jam.ensemble.ensemble.make", fail):
                 self.assertEqual(self.make([1]).failed, 1)
         status = self.make([1])
         self.assertEqual((status.done, status.failed, status.made), (1, 0, 1))
         self.assertEqual(self.e.failures(), [])
 
     def test_a_module_that_workers_lack_ends_the_campaign_and_fails_no_seed(self):
-        with unittest.mock.patch("jam.ensemble.campaign.make", side_effect=ImportError("no scipy")):
+        with unittest.mock.patch("jam.ensemble.ensemble.make", side_effect=ImportError("no scipy")):
             with self.assertRaisesRegex(ImportError, "no scipy"):
                 self.make([1])
         self.assertEqual(self.e.failures(), [])

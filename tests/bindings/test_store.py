@@ -337,7 +337,7 @@ class Parts(InFolder):
             file.write(b"new")
             1 // 0
         self.assertEqual(target.read_text(), "old")
-        with replacing.replacing(target, "w") as file:
-            file.write("new")
+        with replacing.replacing(target) as file:
+            file.write(b"new")
         self.assertEqual((target.read_text(), target.stat().st_mode & 0o777), ("new", 0o640))
         self.assertEqual(list(self.folder.iterdir()), [target])

@@ -92,3 +92,12 @@ def explanation(path: str) -> dict[str, str]:
         columns = "; ".join(f"{m.name.lower()}: {text}" for m, text in _members(HistoryColumn))
         found.update(fields=columns, phase=_words(StepPhase))
     return found
+
+
+_BY_MEMBERS = {tuple(f.name for f in fields(report)): report for report in generated.REPORTS.values()}
+
+
+def described(path: str, kind: np.dtype[Any]) -> tuple[np.dtype[Any], dict[str, str]]:
+    """The type and the attributes of an array in a file: those of a report, which is known by its members, or of its name."""
+    report = _BY_MEMBERS.get(kind.names or ())
+    return of_report(report) if report else (kind, explanation(path))

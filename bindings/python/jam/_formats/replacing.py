@@ -14,7 +14,9 @@ import os
 import re
 import stat
 import uuid
-from typing import IO, Any, Iterator
+from typing import IO, Iterator
+
+from ..errors import JamError, StoreError
 
 #: What to do after an error in writing
 MENDED = "Nothing that was finished is lost: correct this and run again"
@@ -89,33 +91,34 @@ def _take_permissions(descriptor: int, old: os.stat_result) -> None:
 
 
 @contextlib.contextmanager
-def replacing(
-    path: str | os.PathLike[str], mode: str = "wb", parts: str | os.PathLike[str] | None = None
-) -> Iterator[IO[Any]]:
-    """A file that takes the place of path when the block ends without an exception: flushed to the disk, then renamed.
+def replacing(path: str | os.PathLike[str], parts: str | os.PathLike[str] | None = None) -> Iterator[IO[bytes]]:
+    """A file that takes the place of path when the block ends without an exception: flushed to the disk, then renamed. What the
+    system refuses is a StoreError.
 
-    Modes are 'wb', 'w+b' to read the bytes again, and 'w' for ASCII text. parts: folder of the unfinished file, on the same
-    file system; default that of path, where those that killed writers of path left are removed first.
+    parts: folder of the unfinished file, on the same file system; default that of path, where those that killed writers of
+    path left are removed first.
     """
-    target = replaceable(path)
-    folder, name = os.path.split(target)
-    folder = os.fspath(parts or folder)
-    begin = f".jam-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}-"  # of one length, however long the name is
-    if parts is None:
-        remove_abandoned(folder, begin)
-    descriptor, beside = _locked(folder, begin)
+    beside = ""
     try:
-        opened: Any = open(beside, mode, encoding=None if "b" in mode else "ascii", opener=lambda *_: descriptor)
-        with opened as file:
+        target = replaceable(path)
+        folder, name = os.path.split(target)
+        folder = os.fspath(parts or folder)
+        begin = f".jam-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}-"  # of one length, however long the name is
+        if parts is None:
+            remove_abandoned(folder, begin)
+        descriptor, beside = _locked(folder, begin)
+        with open(beside, "w+b", opener=lambda *_: descriptor) as file:
             if os.path.exists(target):
                 _take_permissions(descriptor, os.stat(target))
             yield file
             file.flush()
             os.fsync(descriptor)
             os.replace(beside, target)  # the lock holds until the file has its name
-    except BaseException:
+    except BaseException as error:
         with contextlib.suppress(OSError):
             os.unlink(beside)
+        if isinstance(error, OSError) and not isinstance(error, (JamError, StoreError)):
+            raise StoreError(error.errno or 5, f"{path} cannot be written: {error.strerror or error}. {MENDED}") from error
         raise
     with contextlib.suppress(OSError):  # makes the rename outlive a crash; the file is whole either way
         place = os.open(os.path.dirname(target), os.O_RDONLY)

@@ -29,7 +29,7 @@ try:
     import h5py
 except ImportError as error:  # pragma: no cover
     raise ImportError("packings are stored by h5py: install python3-h5py") from error
-from .records import explanation
+from .records import described
 
 USER_BLOCK = 512
 INDEX = "seal"
@@ -46,11 +46,10 @@ SAME = {f"particles/spheres/box/edges/{k}": f"particles/spheres/position/{k}" fo
 
 
 class Packing(NamedTuple):
-    """One packing: its arrays, the attributes of its groups, and texts beside the arrays, by their path in the file."""
+    """One packing: its arrays and the attributes of its groups, by their path in the file."""
 
     arrays: dict[str, Array]
     attributes: dict[str, dict[str, Any]]
-    texts: dict[str, dict[str, str]] = {}
 
     def get(self, path: str) -> Any:
         """A number, an array or text; of a group a dict of them. None where there is none."""
@@ -116,13 +115,13 @@ def seal(file: IO[bytes], content: Packing | Iterable[tuple[str, Packing]], **at
     with h5py.File(file, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:  # every HDF5 reads it
         inside.attrs.update(attributes)
         if isinstance(content, Packing):
-            place = _put(inside, _write(content, inside["/"].id))
+            place = _put(inside, _write(content, inside))
         else:
             parts = {}
             for name, packing in content:
                 group = inside.create_group(name)
-                parts[name] = _put(group, _write(packing, group.id))
-            place = _put(inside, {"packings": parts} if parts else {"data": {}, "attributes": {}})
+                parts[name] = _put(group, _write(packing, group))
+            place = _put(inside, {"packings": parts})
     length, whole = file.seek(0, 2), digest_of_rest(file)
     file.seek(0)
     file.write(head_of(length, place, whole))
@@ -135,37 +134,26 @@ def _put(group: Any, index: dict[str, Any]) -> list[Any]:
     return [int(node.id.get_offset()), len(text), digest(text)]
 
 
-def _write(packing: Packing, target: Any) -> dict[str, Any]:
-    """A packing into a group; returns its index. By the low calls of h5py: the high ones take ten times as long as
-    libhdf5 for small arrays."""
+def _write(packing: Packing, group: Any) -> dict[str, Any]:
+    """A packing into a group; returns its index. By the low calls of h5py: the high ones take twice as long for all of it."""
     check_names(packing.arrays)
-    groups, data = {"": target}, {}
-    for path, attributes in packing.attributes.items():
-        _describe(_group(groups, path), attributes)
+    data, above = {}, h5py.h5p.create(h5py.h5p.LINK_CREATE)
+    above.set_create_intermediate_group(True)
     for path, value in packing.arrays.items():
-        if value.dtype.hasobject:
-            raise TypeError(f"{path}: only arrays of numbers and text of fixed length are stored, not {value.dtype}")
-        inner, _, name = path.rpartition("/")
-        kind = h5py.h5t.py_create(value.dtype, logical=True)
-        node = h5py.h5d.create(_group(groups, inner), name.encode(), kind, h5py.h5s.create_simple(value.shape))
+        kind, words = described(path, value.dtype)
+        stored = h5py.h5t.py_create(kind, logical=True)
+        node = h5py.h5d.create(group.id, path.encode(), stored, h5py.h5s.create_simple(value.shape), lcpl=above)
         if value.size:
-            node.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value), kind)
-        _describe(node, packing.texts.get(path) or explanation(path))
+            node.write(h5py.h5s.ALL, h5py.h5s.ALL, np.ascontiguousarray(value), stored)
+        _describe(node, words)
         text = value.dtype.str if value.dtype.names is None else [[k, value.dtype[k].str] for k in value.dtype.names]
         place = int(node.get_offset()) if value.nbytes else USER_BLOCK
         data[path] = [place, list(value.shape), text, digest(value.tobytes())]
-    for path, same in SAME.items():
-        if path in data:
-            above, _, name = same.rpartition("/")
-            _group(groups, above).links.create_hard(name.encode(), target, path.encode())
+    for path in SAME.keys() & data.keys():
+        group[SAME[path]] = group[path]
+    for path, attributes in packing.attributes.items():
+        _describe(group.require_group(path).id, attributes)
     return {"data": data, "attributes": packing.attributes}
-
-
-def _group(groups: dict[str, Any], path: str) -> Any:
-    if path not in groups:
-        above, _, name = path.rpartition("/")
-        groups[path] = h5py.h5g.create(_group(groups, above), name.encode())
-    return groups[path]
 
 
 def _describe(node: Any, attributes: dict[str, Any]) -> None:
@@ -273,7 +261,7 @@ def read_packing(
     with refusing(path), open_regular(path) as opened:
         file = _File(path, opened, memory_limit)
         if name not in file.places:
-            many = f"is a shard of {len(file.places)} packings: name one, e.g. name={[*file.places][0]!r}"
+            many = f"is a shard of {len(file.places)} packings: name one, e.g. name={next(iter(file.places), '')!r}"
             raise StoreError(22, f"{path} {many}" if name is None else f"{path} holds no packing {name!r}")
         found = file.packing(name)
         schema = found.attributes.get("jam", {}).get("schema")

@@ -24,17 +24,16 @@ import socket
 import time
 from dataclasses import astuple, is_dataclass
 from pathlib import Path
-from typing import IO, Any, Callable, Iterator, Mapping
+from typing import Any, Iterator, Mapping
 
 import h5py
 import numpy as np
 
 from .. import raw
-from .._api.generated import CrunchReport
 from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError, StoreError
-from .records import fill, of_report
-from .replacing import MENDED, replacing, require_ending
+from .records import of_report
+from .replacing import replacing, require_ending
 from .seal import SCHEMA, Packing, read_packing, seal
 
 #: The algorithm that makes packings, named by the release that was first to have it. With protocol and seed it is what a
@@ -83,8 +82,7 @@ def _put(packing: Packing, path: str, value: Any) -> None:
         for key, part in value._asdict().items():
             _put(packing, f"{path}/{key}", part)
     elif is_dataclass(value):
-        kind, packing.texts[path] = of_report(value.__class__)
-        packing.arrays[path] = np.array(astuple(value), kind)
+        packing.arrays[path] = np.array(astuple(value), of_report(value.__class__)[0])
     elif isinstance(value, str):  # of fixed length, which lies in one place of a file
         data = value.encode()
         packing.arrays[path] = np.array(data, h5py.string_dtype("utf-8", max(1, len(data))))
@@ -98,8 +96,7 @@ def image(
     refined: bool = False,
     analysis: Mapping[str, Any] | None = None,
     protocol: str | None = None,
-    protocol_id: str = "",
-    times: Mapping[str, float] | None = None,
+    attributes: Mapping[str, Any] | None = None,
 ) -> bytes:
     """The bytes of a packing's file.
 
@@ -111,10 +108,10 @@ def image(
         Centres as sums of two doubles too, see System.refined_positions.
     analysis : mapping, optional
         Results by name: numbers, arrays, reports, named tuples of them.
-    protocol, protocol_id : str, optional
-        The protocol as JSON and its name.
-    times : mapping, optional
-        Seconds by name, beside the moment of writing.
+    protocol : str, optional
+        The protocol as JSON.
+    attributes : mapping, optional
+        Of the group jam, beside the provenance: the name of the protocol, seconds.
     """
     state, packing = system._checkpointed()
     info, known = packing.info, {}
@@ -122,7 +119,7 @@ def image(
         with contextlib.suppress(StateError):  # there is none before a crunch
             known[name] = getattr(packing, name)
     closed, spheres = closed_axes(info), "particles/spheres"
-    about = {"schema": SCHEMA, "seed": info.seed, "protocol": protocol_id, **provenance(), "written": time.time()}
+    about = {"schema": SCHEMA, "seed": info.seed, "protocol": "", **provenance(), "written": time.time(), **(attributes or {})}
     if any(closed):
         about.update(container=container_word(info), walls=np.array(walls_of(info)))
     made = Packing({}, {
@@ -132,9 +129,9 @@ def image(
         f"{spheres}/box": {
             "dimension": np.int32(packing.dim), "boundary": ["none" if shut else "periodic" for shut in closed],
         },
-        "jam": {**about, **(times or {})},
+        "jam": about,
         "jam/analysis": {},
-    }, {})
+    })
     parts = {
         f"{spheres}/position/value": packing.positions[None],
         f"{spheres}/box/edges/value": packing.cell[None],
@@ -162,18 +159,9 @@ def image(
 def save(system: Any, path: str | os.PathLike[str], **more: Any) -> None:
     """Writes one packing with all its results; jam.load reads it. The path ends in .h5 or .hdf5. For `more` see image()."""
     require_ending(path, (".h5", ".hdf5"), "save writes HDF5; write() writes other formats")
-    write_file(path, image(system, **more))
-
-
-def write_file(
-    path: str | os.PathLike[str], data: bytes | Callable[[IO[bytes]], Any], parts: str | os.PathLike[str] | None = None
-) -> None:
-    """Writes bytes, or what a call writes, so that the file is there as a whole or not at all; see replacing.py."""
-    try:
-        with replacing(path, "w+b", parts) as file:
-            data(file) if callable(data) else file.write(data)
-    except OSError as error:
-        raise StoreError(error.errno or 5, f"{path} cannot be written: {error.strerror or error}. {MENDED}") from error
+    data = image(system, **more)
+    with replacing(path) as file:
+        file.write(data)
 
 
 def write_shard(
@@ -188,17 +176,10 @@ def write_shard(
     def found() -> Iterator[tuple[str, Packing]]:
         for name, place in packings.items():
             try:
-                source, inner = place if isinstance(place, tuple) else (place, None)
-                packing = read_packing(source, inner)
+                yield name, read_packing(*(place if isinstance(place, tuple) else (place, None)))
             except StoreError as error:
                 left_out.append(str(error.strerror))
-                continue
-            if "jam/report" in packing.arrays:  # with the words of its enums
-                kind, text = of_report(CrunchReport)
-                report = np.zeros((), kind)
-                fill(report, packing.arrays["jam/report"])
-                packing = packing._replace(arrays={**packing.arrays, "jam/report": report}, texts={"jam/report": text})
-            yield name, packing
 
-    write_file(path, lambda file: seal(file, found(), protocol=protocol))
+    with replacing(path) as file:
+        seal(file, found(), protocol=protocol)
     return left_out

@@ -12,8 +12,7 @@ from .._api.shown import only
 from ..errors import StoreError
 from .ensemble import Ensemble, protocols, table
 from .pool import LocalPool, WorkerDied
-from .making import begin, make
-from .protocol import ProtocolError, complete, identity, minimal, packing_name, to_json
+from .protocol import ProtocolError, begin, complete, identity, make, minimal, packing_name, to_json
 from .rows import DamagedWarning, Entry, Status
 
 __all__ = [

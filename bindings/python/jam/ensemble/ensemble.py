@@ -1,10 +1,12 @@
 """Packings of one protocol in a folder: making them, and reading what is there."""
 from __future__ import annotations
 
+import json
 import os
 import random
-from concurrent.futures import Executor
-from contextlib import ExitStack
+import time
+from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
+from contextlib import ExitStack, nullcontext, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping
@@ -12,13 +14,58 @@ from typing import Any, Iterable, Iterator, Mapping
 import numpy as np
 
 from .._formats.replacing import remove_abandoned
-from .._formats.write_packing import write_shard
+from .._formats.write_packing import image, write_shard
 from ..errors import StoreError
-from .campaign import campaign, lasts, progress_bar
 from .folder import Content, Folder
 from .pool import LocalPool
-from .protocol import ProtocolError, complete, identity, packing_name, to_json, whole_seed
+from .protocol import ProtocolError, complete, identity, make, packing_name, to_json, whole_seed
 from .rows import Entry, Status, as_table, build_of, warn
+
+
+def make_packing(folder: str, protocol: str, seed: int, remake_damaged: bool) -> str:
+    """Makes one packing and its file, by the complete protocol as JSON: the call that an executor runs. The worker writes the
+    file itself; only a word goes back: "done", "failed" or "damaged", a file that cannot be read and is not to be made again.
+    """
+    files, chosen = Folder(folder), json.loads(protocol)
+    protocol_id = identity(chosen)
+    name = packing_name(protocol_id, seed)
+    try:
+        path, there = files.free(name, remake_damaged)  # somebody else may have made it since
+    except StoreError:
+        return "damaged"
+    if not there:
+        start, cpu = time.monotonic(), time.process_time()
+        try:
+            system, results = make(chosen, seed)
+        except ImportError:  # of every packing here: there is nothing to record of this one
+            raise
+        except Exception as error:  # a failure is a result too
+            status = getattr(getattr(error, "status", None), "name", type(error).__name__)
+            files.write_failure(protocol_id, seed, status.lower(), str(error))
+            return "failed"
+        seconds = {"seconds_made": time.monotonic() - start, "seconds_processor": time.process_time() - cpu}
+        files.write(path, image(system, analysis=results, protocol=protocol, attributes={"protocol": protocol_id, **seconds}))
+    files.failure(name).unlink(missing_ok=True)
+    return "done"
+
+
+def lasts(failure: Mapping[str, Any]) -> bool:
+    """A failure that the library found in the protocol or its packing. All others may have been of the machine or the folder, or of
+    a worker that was killed: the next run tries them again.
+    """
+    status = str(failure["status"])
+    return status.startswith("e_") and status not in ("e_memory", "e_io", "e_busy")
+
+
+def progress_bar(wanted: bool, total: int, done: int) -> Any:
+    """A bar by tqdm as a context, or a context of None where none is wanted or tqdm is missing."""
+    if wanted:
+        with suppress(ImportError):
+            from tqdm import tqdm
+
+            make_bar: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
+            return make_bar(total=total, initial=done, unit="packing", disable=None)
+    return nullcontext()
 
 
 def readable(files: Folder, protocol: str | None = None) -> list[Entry]:
@@ -113,10 +160,31 @@ class Ensemble:
                 stack.callback(remove_abandoned, self.files.parts)  # a worker may have been killed while it wrote
                 executor = stack.enter_context(LocalPool(workers))
             bar = stack.enter_context(progress_bar(progress, len(seeds), len(seeds) - len(todo)))
-            made = campaign(self.files, self.protocol, todo, executor, bar, remake_damaged)
+            made = self._make(todo, executor, bar, remake_damaged)
         content = self.files.content(asked)
         remade = [p for p in (self.files.packing(names[s]) for s in sorted(broken & set(todo))) if p not in content.damaged]
         return replace(self._status(content, seeds), made=made, remade=tuple(map(str, remade)))
+
+    def _make(self, seeds: list[int], pool: Executor, bar: Any, remake_damaged: bool) -> int:
+        """Hands one call a seed to the executor and takes the answers; returns how many packings were made."""
+        folder, text, made = os.fspath(self.files.path.resolve()), to_json(self.protocol), 0
+        seed_of: dict[Future[str], int] = {}
+        try:
+            for seed in seeds:
+                seed_of[pool.submit(make_packing, folder, text, seed, remake_damaged)] = seed
+            for future in as_completed(seed_of):
+                try:
+                    made += future.result() == "done"
+                except (StoreError, BrokenExecutor, ImportError):
+                    raise  # nothing more can be written or run, or the workers have no jam
+                except Exception as error:  # the worker is lost, not the packing
+                    self.files.write_failure(self.id, seed_of[future], "worker_lost", f"{type(error).__name__}: {error}")
+                if bar is not None:
+                    bar.update()
+        finally:
+            for future in seed_of:
+                future.cancel()
+        return made
 
     # ---- reading
     def status(self, seeds: Iterable[int] | None = None) -> Status:

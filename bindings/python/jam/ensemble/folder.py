@@ -17,6 +17,7 @@ import json
 import os
 import time
 import warnings
+from collections import Counter
 from contextlib import suppress
 from functools import partial
 from itertools import count
@@ -28,12 +29,12 @@ from typing import Any, Callable, Iterable, Iterator, NamedTuple
 import numpy as np
 
 from .._api.arrays import Array
-from .._formats.replacing import remove_abandoned
+from .._formats.replacing import remove_abandoned, replacing
 from .._formats.seal import names_in, read_packing, refusing
-from .._formats.write_packing import ALGORITHM, provenance, write_file
+from .._formats.write_packing import ALGORITHM, provenance
 from ..errors import StoreError
 from .protocol import identity, packing_name
-from .rows import ROW, DamagedWarning, Entry, Place, build_of, key_of, read_index, row_of, write_index
+from .rows import ROW, DamagedWarning, Entry, build_of, key_of, name_at, read_index, row_of, write_index
 
 LOOKED_UP = 2  # rows of the index, each time it is used
 
@@ -48,7 +49,7 @@ class Content(NamedTuple):
 
     def lost(self) -> int:
         """How many packings are in damaged files alone. A file of another name may be anything, and is none."""
-        return len({Place(path).name() for path in self.damaged} - {"", *(str(e.row["name"], "ascii") for e in self.entries)})
+        return len({name_at(path, None) for path in self.damaged} - {"", *(str(e.row["name"], "ascii") for e in self.entries)})
 
 
 class Folder:
@@ -74,7 +75,7 @@ class Folder:
             if not path.exists():
                 break
             try:
-                if self.row(Place(path))["name"] == name.encode():
+                if self.row(path, None)["name"] == name.encode():
                     return path, True
             except StoreError:
                 if not remake_damaged:
@@ -112,7 +113,7 @@ class Folder:
     def keep_protocol(self, name: str, text: str) -> None:
         path = self.path / "protocols" / (name + ".json")
         if not path.exists():
-            write_file(path, text.encode() + b"\n", self.parts)
+            self.write(path, text.encode() + b"\n")
 
     # ---- what is there
     def _shards(self) -> list[Path]:
@@ -120,48 +121,44 @@ class Folder:
 
     def found(self, ending: str) -> Iterator[Path]:
         """All files of packings, .h5, or records of failures, .json."""
-        with suppress(FileNotFoundError), os.scandir(self.packings) as entries:
-            for entry in entries:  # a file beside the folders: a file manager or a user put it there
-                names = os.listdir(entry.path) if entry.is_dir() else [""]
-                yield from (path for name in names if (path := Path(entry.path, name)).suffix == ending)
+        return self.packings.rglob("*" + ending)  # one beside the folders: a file manager or a user put it there
 
-    def _places(self, names: Iterable[str] | None, wrong: dict[Path, str]) -> Iterator[Place]:
+    def _places(self, names: Iterable[str] | None, wrong: dict[Path, str]) -> Iterator[tuple[Path, str | None]]:
         """The places of packings, in files of one and in shards. Tells what is wrong with shards that cannot be read."""
-        yield from map(Place, self.found(".h5") if names is None else map(self.packing, names))
+        yield from ((path, None) for path in (self.found(".h5") if names is None else map(self.packing, names)))
         for path in self._shards():
             try:
-                yield from [Place(path, inner) for inner in names_in(path)]
+                yield from [(path, inner) for inner in names_in(path)]
             except StoreError as error:
                 wrong[path] = str(error.strerror)
 
-    def row(self, place: Place) -> Array:
+    def row(self, path: Path, inner: str | None) -> Array:
         """The row of a packing from its file."""
-        packing = read_packing(*place)
-        with refusing(place.path):
+        packing = read_packing(path, inner)
+        with refusing(path):
             return row_of(packing)
 
     def content(self, names: Iterable[str] | None = None, by_index: bool = True) -> Content:
         """The packings that are there: all, or those of some names and of shards. Some rows of the index are compared with
         their files; where one differs, all are taken from the files."""
         damaged: dict[Path, str] = {}
-        places: dict[bytes, Place] = {}
+        places: dict[bytes, tuple[Path, str | None]] = {}
         for place in self._places(names, damaged):
             with suppress(FileNotFoundError):  # there is none of this name, or somebody removed it meanwhile
                 places[key_of(*place)] = place
         index = read_index(self.index) if names is None and by_index else {}
-        known = [key for key in places if key in index]
-        looked_up = SystemRandom().sample(known, min(LOOKED_UP, len(known)))
-        rows = {key: index[key] for key in known}
-        for key in [key for key in places if key not in index] + looked_up:
+        rows = {key: index[key] for key in places if key in index}
+        looked_up = SystemRandom().sample([*rows], min(LOOKED_UP, len(rows)))
+        for key in [key for key in places if key not in rows] + looked_up:
             try:
-                rows[key] = self.row(places[key]).tobytes()
+                rows[key] = self.row(*places[key]).tobytes()
             except StoreError as error:
                 rows.pop(key, None)
-                if places[key].path.exists():
-                    damaged[places[key].path] = str(error.strerror)
+                if places[key][0].exists():
+                    damaged[places[key][0]] = str(error.strerror)
             if key in index and rows.get(key) != index[key]:
                 if key in rows:
-                    text = f"{self.index} has another row for {places[key].path} than that file: rows are taken from all files"
+                    text = f"{self.index} has another row for {places[key][0]} than that file: rows are taken from all files"
                     warnings.warn(text, DamagedWarning, stacklevel=3)
                 return self.content(names, by_index=False)
         if names is None and rows != index:
@@ -193,7 +190,11 @@ class Folder:
     def write_failure(self, protocol_id: str, seed: int, status: str, text: str) -> None:
         record = {"seed": seed, "protocol": protocol_id, "status": status, "text": text, "time": time.time()}
         data = json.dumps({**record, **provenance()}, indent=2).encode() + b"\n"
-        write_file(self.failure(packing_name(protocol_id, seed)), data, self.parts)
+        self.write(self.failure(packing_name(protocol_id, seed)), data)
+
+    def write(self, path: Path, data: bytes) -> None:
+        with replacing(path, self.parts) as file:
+            file.write(data)
 
 
 def _counted(entries: list[Entry], damaged: dict[Path, str]) -> Content:
@@ -203,28 +204,25 @@ def _counted(entries: list[Entry], damaged: dict[Path, str]) -> Content:
         return int(e.row["seed"]), e.row["protocol"]
 
     def renamed(e: Entry) -> bool:
-        return e._place.name() != e.row["name"].decode()
+        return name_at(*e._place) != e.row["name"].decode()
 
-    def what(e: Entry) -> str:
-        return f"the packing of seed {e.seed} of protocol {e.row['protocol'].decode()}"
-
-    kept: list[Entry] = []
-    others: dict[Path, list[tuple[Entry, Entry]]] = {}  # each packing of a file that does not count, with the one that does
+    kept: dict[tuple[int, bytes], Entry] = {}
+    doubles: dict[Path, str] = {}
+    odd, more = {}, Counter[Path]()
     mine = ALGORITHM.encode()
-    rank = lambda e: (claim(e), e.row["algorithm"] != mine, renamed(e), e.row["written"], str(e._place))
-    for e in sorted(entries, key=rank):
-        if kept and claim(e) == claim(kept[-1]):
-            others.setdefault(e.path, []).append((e, kept[-1]))
-        else:
-            kept.append(e)
-    doubles = {}
-    for path, pairs in others.items():
-        more = f" and {len(pairs) - 1} more, which other files hold too" if len(pairs) > 1 else ""
-        ours, theirs = (f"{build_of(e.row)} (algorithm {e.row['algorithm'].decode()})" for e in pairs[0])
-        builds = "" if ours == theirs else f"; made by {ours} and by {theirs}"
-        doubles[path] = f"{path} holds {what(pairs[0][0])}, as {pairs[0][1].path} does, which counts{more}{builds}"
-    odd = [e for e in kept if renamed(e) and e._place.inner is None]
-    return Content(kept, damaged, doubles, {e.path: f"{e.path} has another name than {what(e)}, which it holds" for e in odd})
+    for e in sorted(entries, key=lambda e: (claim(e), e.row["algorithm"] != mine, renamed(e), e.row["written"], str(e.path))):
+        first = kept.setdefault(claim(e), e)
+        what = f"the packing of seed {e.seed} of protocol {e.row['protocol'].decode()}"
+        if first is not e:
+            ours, theirs = (f"{build_of(row)} (algorithm {row['algorithm'].decode()})" for row in (e.row, first.row))
+            builds = "" if ours == theirs else f"; made by {ours} and by {theirs}"
+            doubles.setdefault(e.path, f"{e.path} holds {what}, as {first.path} does, which counts{builds}")
+            more[e.path] += 1
+        elif renamed(e) and e._place[1] is None:
+            odd[e.path] = f"{e.path} has another name than {what}, which it holds"
+    for path in (path for path in doubles if more[path] > 1):
+        doubles[path] += f"; and {more[path] - 1} more, which other files hold too"
+    return Content([*kept.values()], damaged, doubles, odd)
 
 
 def _protocol(path: Path, name: str, text: str | None = None) -> dict[str, Any]:

@@ -13,12 +13,11 @@ from __future__ import annotations
 import os
 import pickle
 import signal
-import socket
 import subprocess
 import sys
 import threading
 from concurrent.futures import Future, ThreadPoolExecutor
-from multiprocessing.connection import Connection
+from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
 from typing import Any, Callable
 
@@ -52,7 +51,7 @@ class LocalPool(ThreadPoolExecutor):
         """Calls fn in a worker; fn is found there by its module and name, arguments and answer go by pickle."""
         package = str(getattr(fn, "__module__", None)).partition(".")[0]
         folders = [] if package in ("jam", "builtins") else [os.path.abspath(p) for p in sys.path]
-        return super().submit(self._call, folders, pickle.dumps((fn, args, kwargs)))
+        return super().submit(self._call, folders, fn, args, kwargs)
 
     def shutdown(self, wait: bool = True, *, cancel_futures: bool = False) -> None:
         """Ends the pool. With cancel_futures also the calls that run now: their workers are killed."""
@@ -76,20 +75,21 @@ class LocalPool(ThreadPoolExecutor):
         home = str(Path(__file__).resolve().parents[2])
         paths = [home] + [p for p in os.environ.get("PYTHONPATH", "").split(os.pathsep) if p and p != home]
         environment = dict(os.environ, PYTHONPATH=os.pathsep.join(paths), OPENBLAS_NUM_THREADS="1")
-        ours, theirs = socket.socketpair()
+        ours, theirs = Pipe()
         command = [sys.executable, "-c", f"{_OWN_PATH}; from jam.ensemble.pool import main; main({theirs.fileno()})"]
-        with self._begins, ours, theirs:
+        with self._begins, theirs:
             if self._killed:
                 raise WorkerDied("the pool was shut down before the worker began")
             process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=2, env=environment, pass_fds=[theirs.fileno()])
-            worker = self._workers[threading.get_ident()] = process, Connection(ours.detach())
+            worker = self._workers[threading.get_ident()] = process, ours
         return worker
 
-    def _call(self, folders: list[str], call: bytes) -> Any:
+    def _call(self, folders: list[str], *call: Any) -> Any:
         worker = self._workers.get(threading.get_ident())
         process, connection = self._begin() if worker is None or worker[0].poll() is not None else worker
+        sent = pickle.dumps(call)  # what cannot be is an error of this call
         try:
-            connection.send((folders, call))
+            connection.send((folders, sent))
             done, answer = connection.recv()
         except Exception:  # the socket closed amid the call
             process.kill()

@@ -1,5 +1,5 @@
 """The protocol of an ensemble: a plain dict that says how one packing is made from a seed; bindings/docs/ensembles.md has its
-parts. complete() checks it and spells out every default; making.py makes the packing.
+parts. complete() checks it and spells out every default; make() makes the packing.
 """
 from __future__ import annotations
 
@@ -7,21 +7,25 @@ import copy
 import hashlib
 import inspect
 import json
+import math
 from contextlib import contextmanager, suppress
-from difflib import get_close_matches
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from .. import errors
 from .._api import generated
-from .._api.generated import GROWTH_STAGES, OPTIONS, Container
+from .._api.arrays import Array
+from .._api.generated import GROWTH_STAGES, OPTIONS, Container, StatusCode
 from .._api.given import cell_of, enclosure_of
-from .._api.options import option_struct, spelled_out
+from .._api.options import option_struct, spelled_out, unknown
+from .._api.size_laws import sizes as draw_sizes
 from .._formats.write_packing import ALGORITHM
+from .._system.verbs import stage_of
 from ..system import System
-from .making import SCENE, begin, sizes_of_law
 
+#: What a protocol may say of the cell and its walls, and what it says by default.
+SCENE = {"cell": None, "walls": None, "container": "brick"}
 PARTS = ("start", "stages", "crunch", "analysis")
 #: Laws of diameters and what they take by default; besides these, every law of jam.sizes.
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
@@ -92,7 +96,6 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
         "container": Container(kind).name.lower(),
     }
     made = _options("jam_create_options", rest, _NOT_IN_START)
-    System.random(1, made["dim"], packing_fraction=_FEW, **{k: made[k] for k in _CHECKED}, **scene)  # the library checks the scene
     if made["packing_fraction"] == 0:  # the library's own, spelled out
         made["packing_fraction"] = round(System.random(1, made["dim"]).packing_fraction, 12)
     if made["overlap"] == "shrink":
@@ -123,13 +126,7 @@ def _check_room(start: Mapping[str, Any]) -> None:
 
 def _stage(given: Mapping[str, Any] | Sequence[float]) -> dict[str, Any]:
     """A stage: options with its verb, or as in System.compress a pair (growth_rate, pressure)."""
-    if not isinstance(given, Mapping):
-        try:
-            growth_rate, pressure = (float(x) for x in given)
-        except (TypeError, ValueError):
-            raise ProtocolError(f"{given!r} is neither a pair (growth_rate, pressure) nor a dict of options") from None
-        given = {"growth_rate": growth_rate, "pressure": pressure}
-    rest = dict(given)
+    rest: dict[str, Any] = dict(stage_of(given))
     verb = rest.pop("verb", "compress")
     verbs = [s[4:-8] for s in OPTIONS if hasattr(System, s[4:-8]) and s[4:-8] not in _NO_STAGE]
     if verb not in verbs:
@@ -145,8 +142,7 @@ _OF_SOFT = ("relax", "decompress", "shear")  # stages of spheres that overlap
 def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     known = [n for n in dir(System) if "jam_" + n in generated.CALLS and callable(getattr(System, n))] + ["crystal_score"]
     if name not in known:
-        near = ", ".join(get_close_matches(name, known))
-        raise ProtocolError("no method of System, such as gaps or rigidity, has this name" + (f"; near to it: {near}" if near else ""))
+        raise ProtocolError(f"no method of System has this name; {unknown(name, known)}")
     takes = [p for p in list(inspect.signature(getattr(System, name)).parameters.values())[1:] if p.name != "progress"]
     try:
         call = inspect.Signature(takes).bind(**given)
@@ -160,8 +156,8 @@ def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
 def _check_calls(made: Mapping[str, Any]) -> None:
     """Calls that the scene or model refuses, such as a free cell between walls: asked of two spheres that have no time."""
     start = made["start"]
-    scene = {k: start[k] for k in (*SCENE, *_CHECKED)}
-    two = System.random(2, start["dim"], packing_fraction=_FEW, **scene)
+    with _entry("start"):
+        two = System.random(2, start["dim"], packing_fraction=_FEW, **{k: start[k] for k in (*SCENE, *_CHECKED)})
     calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
     if made["crunch"] is not None:
         calls.append(("crunch", {"verb": "crunch", **made["crunch"]}))
@@ -258,3 +254,67 @@ def packing_name(protocol_id: str, seed: int, algorithm: str = ALGORITHM) -> str
     """32 hex digits that name one packing: of the protocol, the seed and the algorithm."""
     text = f"{protocol_id} {whole_seed(seed)} {algorithm}"
     return hashlib.sha256(text.encode()).hexdigest()[:32]
+
+
+# ---- one packing
+def sizes_of_law(law: Any, n: int, dim: int, seed: int) -> Array | None:
+    """Ratios of the diameters."""
+    if law is None or isinstance(law, list):
+        return None if law is None else np.array(law)
+    if law["law"] == "bidisperse":
+        if not all(isinstance(law[k], float) for k in ("ratio", "share")) or not (law["ratio"] > 0 and 0 < law["share"] < 1):
+            raise ValueError("bidisperse takes a ratio > 0 and a share in (0, 1)")
+        return np.where(np.arange(n) < round(law["share"] * n), 1.0, law["ratio"])
+    fields: dict[str, Any] = {"draw": "random", "seed": seed, **{k: v for k, v in law.items() if k != "law"}}
+    return draw_sizes(str(law["law"]), n, dim=dim, **fields)
+
+
+def _fcc(n: int, box: float) -> Array:
+    m = round((n / 4) ** (1 / 3))
+    corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
+    basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2.0
+    return ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
+
+
+def begin(protocol: Mapping[str, Any], seed: int) -> System:
+    """The start of a complete protocol. On a lattice the diameters shrink by one factor until no pair overlaps."""
+    given = dict(protocol["start"])
+    lattice, law = given.pop("lattice"), given.pop("diameters")
+    scene = {k: given.pop(k, None) for k in SCENE}
+    sizes = sizes_of_law(law, given["n"], given["dim"], seed)
+    if lattice is None:
+        if scene["cell"] is not None:
+            del given["box"]
+        return System.random(seed=seed, diameters=sizes, **given, **scene)
+    overlap = "allow" if given.pop("overlap", "refuse") == "allow" else "shrink"
+    n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
+    sizes = np.ones(n) if sizes is None else sizes
+    if isinstance(law, dict) and (law["law"] == "bidisperse" or law.get("draw") == "quantiles"):
+        # on other sites for each seed: sizes that ascend would part small from large
+        keys = draw_sizes("uniform", n, low=1.0, high=2.0, draw="random", seed=seed)
+        sizes = sizes[np.argsort(keys, kind="stable")]
+    unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
+    sizes = sizes * (phi * box**dim / unit.sum()) ** (1 / dim)
+    return System.from_arrays(_fcc(n, box), sizes, box, seed=seed, overlap=overlap, **given)
+
+
+def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]]:
+    """Makes one packing, also when it is not jammed, as its report says; and results of the analysis by name.
+
+    A call that this packing cannot answer, such as one that needs a jammed network, gives its error's text.
+    """
+    system = begin(protocol, seed)
+    for stage in protocol["stages"]:
+        given = dict(stage)
+        report = getattr(system, given.pop("verb"))(**given)
+        if getattr(report, "status", StatusCode.OK) in (StatusCode.CANCELLED, StatusCode.LIMIT):
+            break  # as System.compress: a stage that stopped early ends the sequence
+    if protocol["crunch"] is not None:
+        system.crunch(**protocol["crunch"])
+    results = {}
+    for name, given in protocol["analysis"].items():
+        try:
+            results[name] = getattr(system, name)(**given)
+        except (errors.StateError, errors.UnsupportedError) as error:
+            results[name] = f"not available: {error}"
+    return system, results

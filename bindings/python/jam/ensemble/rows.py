@@ -1,20 +1,19 @@
 """The packings of an ensemble: rows of the table, which say what each is and how its crunch ended; entries, which read more;
 and what there is in numbers, with the warning of what cannot be read.
 
-index.bin has the rows, to save time. It may be anybody's: it is bytes of fixed length behind their checksum, and a row counts
-only for a file with the place, size and time of change that its digest names. Some are compared with their files (folder.py).
+index.bin has the rows, to save time. It may be anybody's: it is a sealed file as those of packings, and a row counts only for a
+file with the place, size and time of change that its digest names. Some are compared with their files (folder.py).
 """
 from __future__ import annotations
 
 import contextlib
 import hashlib
 import math
-import os
 import re
 import warnings
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, Iterable, Mapping, NamedTuple
+from typing import Any, Iterable, Mapping
 
 import numpy as np
 
@@ -23,9 +22,9 @@ from .._api.arrays import Array
 from .._api.generated import CrunchReport
 from .._api.results import Contacts
 from .._formats.records import enum_of, fill, of_report
-from .._formats.replacing import open_regular
-from .._formats.seal import Packing, read_packing
-from .._formats.write_packing import write_file
+from .._formats.replacing import replacing
+from .._formats.seal import SCHEMA, Packing, read_packing, refusing, seal
+from ..errors import StoreError
 from ..system import System
 from .protocol import packing_name
 
@@ -83,23 +82,17 @@ def as_table(entries: Iterable[Any], pandas: bool) -> Any:
     return pd.DataFrame(columns)
 
 
-class Place(NamedTuple):
-    """Where a packing lies: its file, and its name in a shard."""
-
-    path: Path
-    inner: str | None = None
-
-    def name(self) -> str:
-        """The packing that the file is named after, as Folder.free() does; none of a shard, and of any other name."""
-        found = re.fullmatch("([0-9a-f]{32})(-.*)?", self.path.stem)
-        return found[1] if found and self.inner is None and self.path.parent.name == found[1][:2] else ""
+def name_at(path: Path, inner: str | None) -> str:
+    """The packing that a file is named after, as Folder.free() does; none of one in a shard, and of any other name."""
+    found = re.fullmatch("([0-9a-f]{32})(-.*)?", path.stem)
+    return found[1] if found and inner is None and path.parent.name == found[1][:2] else ""
 
 
 class Entry:
     """One packing of an ensemble. It has the attributes and analyses of its System: entry.forces, entry.modes(5), ...
 
     What the file stores is read from it on first use: positions, diameters, contacts, forces, coordination, rattlers,
-    bucklers, history. All else is asked of a System that is made from the file for this one question, so the packing of
+    bucklers. All else is asked of a System that is made from the file for this one question, so the packing of
     an entry never changes. To ask much, or to move spheres, take system().
 
     Of the ensemble are `gaps` and `gap_pairs`, those of the protocol's analysis (any others: system().gaps(...));
@@ -111,9 +104,6 @@ class Entry:
     _PLACES = {
         "positions": "particles/spheres/position/value",
         "contacts": "jam/contacts",
-        "pairs": "jam/contacts/pairs",
-        "vectors": "jam/contacts/vectors",
-        "contact_gaps": "jam/contacts/gaps",
         "forces": "jam/contacts/forces",
         "gaps": "jam/analysis/gaps/gap",
         "gap_pairs": "jam/analysis/gaps/pair",
@@ -121,14 +111,13 @@ class Entry:
         "coordination": "jam/coordination",
         "rattlers": "jam/coordination",
         "bucklers": "jam/coordination",
-        "history": "jam/history",
     }
 
-    def __init__(self, row: Any, place: Place) -> None:
+    def __init__(self, row: Any, place: tuple[Path, str | None]) -> None:
         #: The row of the table
         self.row = row
         #: The file, which may be a shard
-        self.path, self._place = place.path, place
+        self.path, self._place = place[0], place
 
     seed = property(lambda self: int(self.row["seed"]))
 
@@ -209,7 +198,7 @@ class Status:
     #: Packings that run() has made.
     made: int = 0
     #: Builds of libjam that made the packings: more than one may differ in the last bits. The table has columns of it.
-    builds: tuple[str, ...] = field(default=())
+    builds: tuple[str, ...] = ()
 
     @property
     def missing(self) -> int:
@@ -231,40 +220,33 @@ class Status:
 
 
 # ---- index.bin
-_KEY = 32  # bytes of a digest
-_LARGEST = 1 << 30  # bytes; 1e5 packings take 70 MB
-
-
 def key_of(path: Path, inner: str | None) -> bytes:
     """What the index calls a packing, of a file as it is now."""
     stat = path.stat()
     text = f"{path.parent.name}/{path.name}:{inner or ''} {stat.st_size} {stat.st_mtime_ns}"
-    return hashlib.sha256(text.encode(errors="surrogateescape")).digest()
+    return hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest().encode()
 
 
-def _checksum(rows: bytes) -> bytes:
-    """Changes with the rows, with their layout, and with what stands for unknown in them."""
-    fill(absent := np.zeros((), ROW))
-    return hashlib.sha256(f"{ROW.descr}".encode() + absent.tobytes() + rows).digest()
+def _unknown() -> Array:
+    """A row of which nothing is known."""
+    fill(made := np.zeros((), ROW))
+    return made
 
 
 def read_index(path: Path) -> dict[bytes, bytes]:
-    """Rows by key; none where it is not the index that was written."""
-    try:
-        with open_regular(path) as file:
-            data = file.read() if os.fstat(file.fileno()).st_size <= _LARGEST else b""
-    except OSError:
-        return {}
-    if data[:_KEY] != _checksum(data[_KEY:]):
-        return {}
-    size = _KEY + ROW.itemsize
-    return {data[k : k + _KEY]: data[k + _KEY : k + size] for k in range(_KEY, len(data), size)}
+    """Rows by key; none where it is not the index that was written, or has rows of another kind."""
+    with contextlib.suppress(StoreError), refusing(path):
+        found = read_packing(path).arrays
+        if found["rows"].dtype == ROW and found["unknown"].tobytes() == _unknown().tobytes():
+            return dict(zip(found["keys"].tolist(), (row.tobytes() for row in found["rows"].reshape(-1))))
+    return {}
 
 
 def write_index(path: Path, rows: Mapping[bytes, bytes]) -> None:
     """Nothing is lost where that cannot be."""
-    data = b"".join(key + row for key, row in rows.items())
+    arrays = {"keys": np.array([*rows], "S64"), "rows": np.frombuffer(b"".join(rows.values()), ROW), "unknown": _unknown()}
     with contextlib.suppress(OSError):
         if path.is_symlink():  # somebody's: what it leads to is not replaced
             path.unlink()
-        write_file(path, _checksum(data) + data)
+        with replacing(path) as file:
+            seal(file, Packing(arrays, {"jam": {"schema": SCHEMA}}))

@@ -53,27 +53,25 @@ def open_regular(path: str | os.PathLike[str]) -> IO[bytes]:
     return os.fdopen(descriptor, "rb")
 
 
-def _locked(folder: str, begin: str) -> tuple[int, str]:
-    """A new file under a lock: its descriptor and its name."""
+def _locked(folder: str, begin: str) -> IO[bytes]:
+    """A new file under a lock."""
     while True:
-        name = os.path.join(folder, f"{begin}{uuid.uuid4().hex}.part")
-        descriptor = os.open(name, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o666)
+        file = open(os.path.join(folder, f"{begin}{uuid.uuid4().hex}.part"), "x+b")
         with contextlib.suppress(OSError):  # a file system without locks
-            fcntl.flock(descriptor, fcntl.LOCK_EX)  # waits for who takes it for abandoned, and removes it
-        if os.fstat(descriptor).st_nlink > 0:
-            return descriptor, name
-        os.close(descriptor)
+            fcntl.flock(file, fcntl.LOCK_EX)  # waits for who takes it for abandoned, and removes it
+        if os.fstat(file.fileno()).st_nlink > 0:
+            return file
+        file.close()
 
 
 def remove_abandoned(folder: str | os.PathLike[str], begin: str = "") -> None:
     """Removes the unfinished files of a folder whose writer is gone. What fails here is no error."""
-    names: list[str] = []
     with contextlib.suppress(OSError):
-        names = [name for name in os.listdir(folder) if _PART.fullmatch(name) and name.startswith(begin)]
-    for path in (os.path.join(folder, name) for name in names):
-        with contextlib.suppress(OSError), open(os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK), "rb", 0) as file:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            os.unlink(path)
+        for name in (name for name in os.listdir(folder) if _PART.fullmatch(name) and name.startswith(begin)):
+            path = os.path.join(folder, name)
+            with contextlib.suppress(OSError), open(os.open(path, os.O_RDWR | os.O_NOFOLLOW | os.O_NONBLOCK), "rb", 0) as file:
+                fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                os.unlink(path)
 
 
 def _take_permissions(descriptor: int, old: os.stat_result) -> None:
@@ -98,7 +96,6 @@ def replacing(path: str | os.PathLike[str], parts: str | os.PathLike[str] | None
     parts: folder of the unfinished file, on the same file system; default that of path, where those that killed writers of
     path left are removed first.
     """
-    beside = ""
     try:
         target = replaceable(path)
         folder, name = os.path.split(target)
@@ -106,20 +103,22 @@ def replacing(path: str | os.PathLike[str], parts: str | os.PathLike[str] | None
         begin = f".jam-{hashlib.sha256(os.fsencode(name)).hexdigest()[:16]}-"  # of one length, however long the name is
         if parts is None:
             remove_abandoned(folder, begin)
-        descriptor, beside = _locked(folder, begin)
-        with open(beside, "w+b", opener=lambda *_: descriptor) as file:
-            if os.path.exists(target):
-                _take_permissions(descriptor, os.stat(target))
-            yield file
-            file.flush()
-            os.fsync(descriptor)
-            os.replace(beside, target)  # the lock holds until the file has its name
-    except BaseException as error:
-        with contextlib.suppress(OSError):
-            os.unlink(beside)
-        if isinstance(error, OSError) and not isinstance(error, (JamError, StoreError)):
-            raise StoreError(error.errno or 5, f"{path} cannot be written: {error.strerror or error}. {MENDED}") from error
-        raise
+        with _locked(folder, begin) as file:
+            try:
+                if os.path.exists(target):
+                    _take_permissions(file.fileno(), os.stat(target))
+                yield file
+                file.flush()
+                os.fsync(file.fileno())
+                os.replace(file.name, target)  # the lock holds until the file has its name
+            except BaseException:
+                with contextlib.suppress(OSError):
+                    os.unlink(file.name)
+                raise
+    except OSError as error:
+        if isinstance(error, (JamError, StoreError)):
+            raise
+        raise StoreError(error.errno or 5, f"{path} cannot be written: {error.strerror or error}. {MENDED}") from error
     with contextlib.suppress(OSError):  # makes the rename outlive a crash; the file is whole either way
         place = os.open(os.path.dirname(target), os.O_RDONLY)
         try:

@@ -92,7 +92,7 @@ class Entry:
     """One packing of an ensemble. It has the attributes and analyses of its System: entry.forces, entry.modes(5), ...
 
     What the file stores is read from it on first use: positions, diameters, contacts, forces, coordination, rattlers,
-    bucklers. All else is asked of a System that is made from the file for this one question, so the packing of
+    bucklers, history. All else is asked of a System that is made from the file for this one question, so the packing of
     an entry never changes. To ask much, or to move spheres, take system().
 
     Of the ensemble are `gaps` and `gap_pairs`, those of the protocol's analysis (any others: system().gaps(...));
@@ -104,10 +104,14 @@ class Entry:
     _PLACES = {
         "positions": "particles/spheres/position/value",
         "contacts": "jam/contacts",
+        "pairs": "jam/contacts/pairs",
+        "vectors": "jam/contacts/vectors",
+        "contact_gaps": "jam/contacts/gaps",
         "forces": "jam/contacts/forces",
         "gaps": "jam/analysis/gaps/gap",
         "gap_pairs": "jam/analysis/gaps/pair",
         "diameters": "jam/diameters",
+        "history": "jam/history",
         "coordination": "jam/coordination",
         "rattlers": "jam/coordination",
         "bucklers": "jam/coordination",

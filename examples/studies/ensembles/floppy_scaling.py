@@ -53,7 +53,7 @@ def main():
         sys.exit("two sizes with 4 packings each are needed")
     expected = {
         "displacement over opening": 0.0,
-        "s_plus times it": -1 / (1 - GAMMA),
+        "s_plus times displacement over opening": -1 / (1 - GAMMA),
         "f_min": -1 / (1 + THETA_E),
     }
     for k, (name, law) in enumerate(expected.items()):

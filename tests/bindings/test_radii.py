@@ -134,6 +134,7 @@ class Refused(unittest.TestCase):
         ):
             self.refused(system, jam.errors.ArgumentError, text, *given, **options)
         self.refused(six, ValueError, "moments has 5 exponents, one to four are possible", moments=(1, 2, 3, 4, 5))
+        self.refused(six, TypeError, "exponent_2", moments=(1, 2), exponent_2=3.0)  # was not heard
 
     def test_cells_that_cannot_deform_move_nothing(self):
         few = "a maximum of radii that changes the cell at fixed volume needs at least 2 axes without walls, this scene has {}"

@@ -278,7 +278,8 @@ class Verbs(Observing):
             exponents = as_vector(moments, name="moments")
             if not 1 <= len(exponents) <= 4:
                 raise ValueError(f"moments has {len(exponents)} exponents, one to four are possible")
-            options.update({f"exponent_{k}": float(q) for k, q in enumerate(exponents, 1)}, moments=len(exponents))
+            named: dict[str, Any] = {f"exponent_{k}": float(q) for k, q in enumerate(exponents, 1)}
+            options = dict(moments=len(exponents), **named, **options)
         return self._verb("maximise_radii", RadiiReport, progress, options or None, weights=given)
 
     @takes("jam_relax_options")

@@ -90,7 +90,7 @@
  * - packing fraction          above 0; a random start: below saturation, 0.38 in d = 3
  * - radii of pair searches    at most 1000 mean diameters; ends of histograms at least 1e-15
  * - energy, k_B T, P, stress  1e-100 .. 1e100, also the energy of two soft spheres at one place
- * - growth rate               above 0, at most 1000
+ * - growth rate               1e-15 .. 1000
  * - wall_time, in seconds     above 0, of the call that takes it; infinity, the default: no limit
  * - velocities                root of sum m v^2 / (d n) 0 or 1e-9 .. 1e6. Light spheres among heavy ones may be faster
  */
@@ -162,7 +162,7 @@ typedef enum jam_stop_reason {
   JAM_STOP_WALL_TIME = 4,        /* the wall-clock limit came first */
   JAM_STOP_CANCELLED = 5,        /* jam_cancel or a callback */
   JAM_STOP_STALLED = 6,          /* no progress: MD time or LP gain stopped moving */
-  JAM_STOP_PRECISION = 7,        /* gaps are at the resolution of the coordinates */
+  JAM_STOP_PRECISION = 7,        /* gaps, overlaps or forces are at rounding */
   JAM_STOP_CONVERGED = 8,        /* crunch: both tolerances met, certificate computed; radii: a maximum */
   JAM_STOP_LP_LIMIT = 9,         /* crunch: max_lps came first */
   JAM_STOP_SOLVER = 10,          /* crunch: no LP answer passed the checks */
@@ -1097,7 +1097,7 @@ JAM_API jam_status jam_relax_options_init(jam_relax_options *o, size_t size);
  * free cell, stresses too fall below force_tolerance. The handle keeps the contact network with its forces and
  * stiffnesses for jam_contacts, jam_forces, jam_hessian (JAM_STIFFNESS_SOFT) and the like. Positions are rounded to
  * doubles at the end; the network has further digits. Status: JAM_NOT_JAMMED: energy 0, no overlaps. JAM_PRECISION:
- * converged, but overlaps are below the rounding of the positions. JAM_NOT_CONVERGED. Example: examples/c/soft.c
+ * overlaps are below the rounding of positions, or forces at rounding. JAM_NOT_CONVERGED. Example: examples/c/soft.c
  * @errors STATE (made without JAM_OVERLAP_ALLOW), OVERLAP (wider than the cell) */
 JAM_API jam_status jam_relax(jam_system *sys, const jam_relax_options *o, jam_relax_report *report);
 
@@ -1160,8 +1160,8 @@ JAM_API jam_status jam_decompress_options_init(jam_decompress_options *o, size_t
 /* From overlapping spheres down to jamming. Each step minimises and then shrinks all diameters by one factor, so that
  * the energy falls by energy_factor (O'Hern et al., Phys. Rev. E 68, 011306 (2003)). A step that leaves too few
  * contacts is undone and tried with the square root of its factor. Status: JAM_OK: a target was reached; with isostatic
- * and crunch, both networks agree. JAM_NOT_JAMMED: the first minimum has no overlaps. JAM_PRECISION: overlaps reached
- * the rounding of positions first. JAM_NOT_CONVERGED: the last minimum is kept. @errors STATE, TOO_FEW, SOLVER */
+ * and crunch, both networks agree. JAM_NOT_JAMMED: the first minimum has no overlaps. JAM_PRECISION: overlaps, forces
+ * or steps reached rounding first. JAM_NOT_CONVERGED: the last minimum is kept. @errors STATE, TOO_FEW, SOLVER */
 JAM_API jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_decompress_report *report);
 /* Minima of the last decompression. @shape table (minima, jam_soft_column) @errors STATE */
 JAM_API jam_status jam_decompress_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
@@ -1185,7 +1185,7 @@ typedef struct jam_shear_options {
   double force_tolerance;  /* on max |F_i| of stable spheres over the mean contact force, > 0, default 1e-12 */
   int64_t max_evaluations; /* of the forces, for one minimum, >= 1, default 1e6 */
   double wall_time;        /* limit of the call */
-  double step;             /* strain between two minima, > 0, default 1e-3 */
+  double step;             /* strain between two minima; times the largest number of mode >= 1e-15; default 1e-3 */
   double resolution;       /* uncertainty of the strain of an event, >= 1e-15, default 1e-6 */
   int64_t max_steps;       /* minima, >= 1, default 1e6 */
   int32_t until;           /* @enum jam_shear_until, default STRAIN */
@@ -1238,8 +1238,8 @@ JAM_API jam_status jam_shear_options_init(jam_shear_options *o, size_t size);
  * |change of stress| |change of strain| / 5, the step is halved down to the resolution. If the packing does not return
  * when sheared back, the step is a plastic event. An event that releases less is not detected: a smaller `step` shows
  * it. A call that begins where another ended continues to the same bits, if the steps are the same. Status: JAM_OK: the
- * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED: no minimum was found, or a strain diverged
- * under the stress; the last minimum is kept. JAM_NOT_JAMMED: hard spheres did not jam.
+ * last strain or `until` was reached. JAM_LIMIT, JAM_NOT_CONVERGED, JAM_PRECISION: no minimum was found, or a strain
+ * diverged under the stress; the last minimum is kept. JAM_NOT_JAMMED: hard spheres did not jam.
  * @shape turns (turns), mode (d or 2 d, d) @errors UNSUPPORTED (walls, Mari-Kurchan), SOLVER, TOO_FEW, OVERLAP */
 JAM_API jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *turns, size_t turns_len,
                              const double *mode, size_t mode_len, jam_shear_report *report);

@@ -153,7 +153,8 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
     found.soft_history = std::move(result.history);
     sys->commit(made.same_network == 1 ? hard.packing : result.soft.packing, std::move(found));
     give_struct(made, report);
-    if (status == JAM_PRECISION && full.isostatic == 1 && made.excess_contacts > 0)
+    const bool closed = result.soft.report.mean_overlap < overlap_resolution(result.soft.packing);
+    if (status == JAM_PRECISION && closed && full.isostatic == 1 && made.excess_contacts > 0)
       return {status, "overlaps reached the rounding of positions; the packing has " +
                           std::to_string(made.excess_contacts) +
                           " contacts more than one state of self-stress needs, as crystals do, so that it never "

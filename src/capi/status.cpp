@@ -70,8 +70,7 @@ const char *text_of_stop(int32_t reason) {
     case JAM_STOP_CANCELLED:
       return "jam_cancel or a callback stopped the call; the packing reached is kept: call again to continue";
     case JAM_STOP_PRECISION:
-      return "gaps are at the resolution of the coordinates, the limit of double precision; the packing reached is "
-             "kept";
+      return "gaps, overlaps or forces are at rounding, the limit of double precision; the packing reached is kept";
     case JAM_STOP_LP_LIMIT:
       return "max_lps came before convergence; the packing reached is kept: raise max_lps, or crunch again to continue";
     case JAM_STOP_SOLVER:

@@ -18,8 +18,9 @@ constexpr double size_ratio_max = 1e4;             // largest diameter over smal
 constexpr double non_additivity_max = 1.0;         // and above -1: contact distances are positive
 constexpr double mk_zeta_max = 1e15;               // strength of shifts, or infinity: draws of 53 bits keep a fraction
 constexpr double radius_max = 1e3;                 // radii of pair searches, mean diameters
-constexpr double images_max = 1e6;       // of one pair in Monte Carlo: a checkpoint's cell may be far from reduced
-constexpr double growth_rate_max = 1e3;  // of molecular dynamics, dimensionless
+constexpr double images_max = 1e6;  // of one pair in Monte Carlo: a checkpoint's cell may be far from reduced
+// Of molecular dynamics, dimensionless. Between two collisions slower growth is below the rounding of diameters.
+constexpr double growth_rate_min = 1e-15, growth_rate_max = 1e3;
 // Root of sum m v^2 / (d n), unless all spheres rest: no dynamics at constant energy passes the largest. Below 1e-12
 // paths no longer scale with the velocities, below 1e-21 spheres overlap.
 constexpr double velocity_min = 1e-9, velocity_max = 1e6;

@@ -183,6 +183,7 @@ class Decompression {
   bool step() {
     ++effort_.steps;
     const double fall = out_.soft.report.distance * (1.0 - math::pow(factor_, 1.0 / o_.alpha));
+    if (math::exp(-fall) == 1.0) return end_with(JAM_PRECISION, JAM_STOP_PRECISION);  // no diameter would change
     if (o_.minimiser == JAM_MINIMISER_NEWTON) {
       centre_rattlers(state_);
       state_.moved();
@@ -206,7 +207,8 @@ class Decompression {
     state_ = before_;
     factor_ = std::sqrt(factor_);
     if (factor_ <= DecompressTuning::last_factor) return false;
-    if (end == DescentEnd::limit) return end_with(JAM_LIMIT, JAM_STOP_EVALUATIONS);
+    if (end == DescentEnd::limit || end == DescentEnd::rounding)
+      return out_.status = status_of(end, monitor_, report_.stop_reason), true;
     return end_with(JAM_NOT_CONVERGED, JAM_STOP_STALLED);
   }
 

@@ -197,6 +197,17 @@ double Relaxation::stable_residual() const {
   return std::max(largest(force, state.n(), state.dim(), &stable) * static_cast<double>(count) / sum, sums.stress);
 }
 
+// Overlaps have the digits of the displacements, which the next list makes small, or in plain doubles of coordinates.
+bool Relaxation::at_rounding(double residual, double tolerance) const {
+  const double overlap = sums.overlap / static_cast<double>(sums.contacts);
+  const auto rounding = [&](double length) {
+    return RelaxTuning::roundings * std::numeric_limits<double>::epsilon() * (1.0 + length / overlap);
+  };
+  const double always = state.precision() == JAM_SOFT_DOUBLE ? state.base().cell.side() : 0.0;
+  const double moved = norm(state.displacement()) / std::sqrt(static_cast<double>(state.n()));
+  return tolerance < rounding(always) && residual < rounding(always + moved);
+}
+
 bool Relaxation::yields() const {
   if (state.cell().beyond.empty()) return false;
   const std::vector<double> e = strain_between(start, state.base().cell);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <limits>
 
 #include "core/math.hpp"
 #include "linalg/dot.hpp"
@@ -91,11 +92,24 @@ void descent_way(const std::deque<Update> &updates, double first_stiffness, std:
   }
 }
 
-// Whether a descent of first order ends before its evaluation `count`, and how.
-bool descent_ends(Relaxation &r, int64_t count, double tolerance, DescentEnd &end) {
+// The last residual that was half of the one before it, and the step that it was found at.
+struct LeastResidual {
+  double value = std::numeric_limits<double>::infinity();
+  int64_t count = 0;
+};
+
+// Whether a descent of first order ends before its step `count`, and how.
+bool descent_ends(Relaxation &r, int64_t count, double tolerance, LeastResidual &least, DescentEnd &end) {
   if (r.at_rest()) return end = DescentEnd::no_overlaps, true;
-  if (r.residual() < tolerance || (count % evaluations_between_looks == 0 && r.stable_residual() < tolerance))
-    return end = DescentEnd::balanced, true;
+  if (r.residual() < tolerance) return end = DescentEnd::balanced, true;
+  if (count % evaluations_between_looks == 0) {
+    const double now = r.stable_residual();
+    if (now < tolerance) return end = DescentEnd::balanced, true;
+    if (now < 0.5 * least.value)
+      least = {now, count};
+    else if (count > 2 * least.count + RelaxTuning::patience && r.at_rounding(now, tolerance))
+      return end = DescentEnd::rounding, true;
+  }
   return r.must_stop(end);
 }
 
@@ -114,9 +128,10 @@ DescentEnd fire(Relaxation &r, double tolerance) {
   std::vector<double> v(size, 0.0);
   double step = FireTuning::first_step, mixing = FireTuning::mixing_start;
   int downhill = 0;
+  LeastResidual least;
   for (int64_t count = 0;; ++count) {
     DescentEnd end;
-    if (descent_ends(r, count, tolerance, end)) return end;
+    if (descent_ends(r, count, tolerance, least, end)) return end;
     std::vector<double> &u = state.displacement(), &f = r.force;
     const double dt = step / std::sqrt(r.stiffness);
     double power = 0.0;
@@ -167,9 +182,10 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
   const double move_limit = LbfgsTuning::longest_move * state.diameter_mean();
   std::deque<Update> updates;
   std::vector<double> way, before;
+  LeastResidual least;
   for (int64_t count = 0;; ++count) {
     DescentEnd end;
-    if (descent_ends(r, count, tolerance, end)) return end;
+    if (descent_ends(r, count, tolerance, least, end)) return end;
     before = way = r.force;
     descent_way(updates, r.stiffness, way);
     double slope = dot(before, way);

@@ -114,13 +114,15 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
   size_t saddles = 0;
   for (int attempt = 0;; ++attempt) {
     out = measure(r.state, minimiser);
-    if (end != DescentEnd::balanced) return end;
+    if (end != DescentEnd::balanced && end != DescentEnd::rounding) return end;
     bool near = true;
     if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) {
-      if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex)) return end;
+      if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex)) return DescentEnd::balanced;
       if (saddles == std::size(RelaxTuning::saddle_moves)) return DescentEnd::stalled;
       displace_at_random(r, saddles++);
       attempt = 0, near = false;
+    } else if (end == DescentEnd::rounding && attempt > 0) {
+      return end;  // also from the overlaps of the rounded positions, which have more digits
     }
     const bool loads = !r.state.cell().beyond.empty();
     if (attempt == RelaxTuning::most_roundings + (loads ? RelaxTuning::most_loadings : 0)) return DescentEnd::stalled;
@@ -143,6 +145,9 @@ jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reaso
     case DescentEnd::interrupted:
       stop_reason = monitor.cancelled() ? JAM_STOP_CANCELLED : JAM_STOP_WALL_TIME;
       return monitor.cancelled() ? JAM_CANCELLED : JAM_LIMIT;
+    case DescentEnd::rounding:
+      stop_reason = JAM_STOP_PRECISION;
+      return JAM_PRECISION;
     case DescentEnd::yields:
     case DescentEnd::stalled:
       break;

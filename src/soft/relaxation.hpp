@@ -16,7 +16,8 @@ enum class DescentEnd {
   limit,        // evaluations are used up
   interrupted,  // cancelled, or wall time is over
   yields,       // the cell strains on and on: it cannot hold the stress
-  stalled       // the method made no progress
+  stalled,      // the method made no progress
+  rounding      // what forces leave is rounding
 };
 
 // What has been spent, and when to stop; shared by all parts of a call.
@@ -50,6 +51,8 @@ class Relaxation {
   // Largest |F_i| over the mean force: of all spheres, and of stable ones. In a free cell the stress counts too.
   double residual() const;
   double stable_residual() const;
+  // Whether rounding may be all of this residual, and keeps the tolerance from being met.
+  bool at_rounding(double residual, double tolerance) const;
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
   // then, or where steps are long at every one.
   bool must_stop(DescentEnd &end, bool long_steps = false) const;

@@ -88,7 +88,8 @@ class Shear {
     const double rest = way - whole * step;
     for (double k = 0.0; k < whole; ++k)
       if (advance(from + k * step, step)) return true;
-    if (std::fabs(rest) <= ShearTuning::rounding_of_turns * o_.step) return false;  // rounding of the turns
+    const double rounding = whole > 0.0 ? ShearTuning::rounding_of_turns * o_.step : 0.0;  // of the turns
+    if (std::fabs(rest) <= rounding) return false;
     return advance(from + whole * step, rest);
   }
 

@@ -6,6 +6,7 @@
 
 #include "core/call_scope.hpp"
 #include "core/limits.hpp"
+#include "linalg/dot.hpp"
 #include "soft/shear.hpp"
 #include "soft/tuning.hpp"
 
@@ -43,9 +44,11 @@ void check_shear_options(const jam_shear_options &o, const ShearPath &path) {
     r.pressure = (o.strain & JAM_STRAIN_VOLUME) != 0 ? 1.0 : 0.0;  // of that stress
   }
   check_relax_options(r);
-  check_positive(o.step, "step");
-  check_range("resolution", o.resolution, ShearTuning::least_resolution, std::numeric_limits<double>::infinity());
-  if (!std::isfinite(o.step)) fail(JAM_E_ARGUMENT, "step is infinite, it must be finite");
+  const double most = largest_entry(path.mode);
+  if (!(o.step * most >= ShearTuning::least_strain) || !std::isfinite(o.step))
+    fail(JAM_E_ARGUMENT, "step is %g, it must be finite, and times the largest number of mode, %g, at least %g", o.step,
+         most, ShearTuning::least_strain);
+  check_range("resolution", o.resolution, ShearTuning::least_strain, std::numeric_limits<double>::infinity());
   check_at_least(o.max_steps, 1, "max_steps");
   check_enum(o.until, JAM_UNTIL_STRAIN, JAM_UNTIL_UNJAMMED, "until", "jam_shear_until");
 }

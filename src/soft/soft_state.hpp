@@ -91,6 +91,7 @@ class SoftState {
   int dim() const { return base_.dim; }
   size_t n() const { return base_.n(); }
   const PairEnergy &energy() const { return energy_; }
+  int32_t precision() const { return precision_; }
   const Packing &base() const { return base_; }
   const PairList &pairs() const { return pairs_; }
   // Positions rounded to doubles, inside the box.

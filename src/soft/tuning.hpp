@@ -78,6 +78,10 @@ struct RelaxTuning {
   // The resulting state has rounded positions. Where they do not balance, the descent continues, at most this
   // many times.
   static constexpr int most_roundings = 4;
+  // What is left of forces is rounding where the residual is below so many roundings of an overlap and was not halved
+  // for so many steps, and for as many as it took to get there. Residuals end at 5e-16 to 4e-15 (unit/soft_minimise).
+  static constexpr double roundings = 32.0;
+  static constexpr int64_t patience = 8192;
   // Loads are fixed in the cell where they were last taken, which costs this many more descents. A cell that strains
   // farther under them flows.
   static constexpr int most_loadings = 40;
@@ -114,7 +118,8 @@ struct ShearTuning {
   static constexpr double energy_digits = 1e-13;  // of the enthalpy: smaller differences are rounding
   // A step is an event where shearing back leaves more than this part of its displacement.
   static constexpr double irreversible = 0.1;
-  static constexpr double least_resolution = 1e-15;  // below it bisection finds no double in between, without end
+  // Of steps and resolutions: coordinates resolve no smaller strain, and bisection finds no double in between.
+  static constexpr double least_strain = 1e-15;
   static constexpr double series_ends = 1e-19;       // last term of exp(strain)
   static constexpr double rounding_of_turns = 1e-9;  // a rest of a step that is smaller is none
 };

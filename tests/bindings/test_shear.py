@@ -286,6 +286,7 @@ class Shear(unittest.TestCase):
             ends.append((s.shear(0.05, step=step).first_event, s.shear_rows["stress"][-1]))
         self.assertAlmostEqual(ends[0][0], ends[1][0], delta=2e-6)  # each is known to the resolution
         self.assertAlmostEqual(ends[0][1], ends[1][1], delta=1e-9)
+        self.assertEqual(soft(16).shear(1e-13).strain, 1e-13)  # was taken for rounding of the turns
         gas = jam.System.random(n=16, dim=2, diameters=[1.0, 1.4] * 8, seed=1)
         start = gas.packing_fraction
         self.assertEqual(gas.shear(2e-3, step=1e-3).strain, 2e-3)

@@ -158,9 +158,9 @@ CASE(dynamics) {
   REFUSED(run, collisions_per_particle, 0, -1, NAN, INFINITY); /* the last would never end */
   REFUSED(run, wall_time, 0, -1, NAN);
   REFUSED(run, resume, 2);
-  REFUSED(compress, growth_rate, -1e-300, -1, NAN, INFINITY); /* 0 is the protocol */
+  REFUSED(compress, growth_rate, 1e-16, 1e4, -1, NAN, INFINITY); /* 0 is the protocol; 1e-16 had no end */
   REFUSED(compress, growth_rate_end, 1e-3);
-  REFUSED_WITH(o.growth_rate = 1e-2, compress, growth_rate_end, 2e-2);
+  REFUSED_WITH(o.growth_rate = 1e-2, compress, growth_rate_end, 2e-2, 1e-300, -1, NAN);
   REFUSED_WITH((o.growth_rate = 1e-2, o.pressure = INFINITY), compress, growth_rate_end, 1e-3);
   REFUSED(compress, growth_law, 7);
   REFUSED(compress, pressure, 0, -1, NAN);
@@ -248,7 +248,8 @@ CASE(soft_spheres) {
   REFUSED(decompress, crunch, -1);
   REFUSED(decompress, max_steps, 0);
   REFUSED(decompress, reserved, 1);
-  REFUSED(shear, resolution, 1e-300); /* bisection had no end */
+  REFUSED(shear, resolution, 1e-300);            /* bisection had no end */
+  REFUSED(shear, step, 1e-20, 0, NAN, INFINITY); /* of 1e-20 no sphere moved, without end */
 }
 
 CASE(analysis) {

@@ -117,6 +117,14 @@ CASE(elastic_tensor) {
       assert_true(fabs(bare[9 * ab + cd] - bare[9 * (3 * (ab % 3) + ab / 3) + cd]) < 1e-10);
 }
 
+/* Rounding is named where no sum of forces meets the tolerance, and not a crystal. */
+CASE(forces_at_rounding) {
+  OWNED jam_system *sys = soft_start(60, 0.7, 1);
+  DEFAULTS(decompress, o);
+  o.force_tolerance = 1e-20;
+  SAYS(jam_decompress(sys, &o, NULL), JAM_PRECISION, "forces are at rounding");
+}
+
 static int32_t stop_soon(const jam_progress *p, void *user) {
   assert_true(p->phase == JAM_PHASE_DECOMPRESS || p->phase == JAM_PHASE_RELAX);
   return ++*(int *)user > 1;

@@ -178,15 +178,14 @@ void check_run_options(const jam_run_options &o) {
 
 void check_compress_options(const jam_compress_options &o) {
   check_flag(o.resume, "resume");
-  if (o.growth_rate != 0.0) check_positive(o.growth_rate, "growth_rate");
-  if (o.growth_rate > limits::growth_rate_max)
-    fail(JAM_E_ARGUMENT, "growth_rate is %g, supported are values up to %g", o.growth_rate, limits::growth_rate_max);
+  for (const auto &[rate, name] : {std::pair(o.growth_rate, "growth_rate"), {o.growth_rate_end, "growth_rate_end"}})
+    if (rate != 0.0) check_range(name, rate, limits::growth_rate_min, limits::growth_rate_max);
   if (!(o.pressure > 1.0)) fail(JAM_E_ARGUMENT, "pressure is %g, it must be greater than 1", o.pressure);
   check_positive(o.packing_fraction, "packing_fraction");
   check_positive(o.collisions_per_particle, "collisions_per_particle");
   check_positive(o.wall_time, "wall_time");
   check_positive(o.time, "time");
-  if (!(o.growth_rate_end >= 0.0) || o.growth_rate_end > o.growth_rate)
+  if (o.growth_rate_end > o.growth_rate)
     fail(JAM_E_ARGUMENT, "growth_rate_end is %g, it must be 0 or at most growth_rate, which is %g", o.growth_rate_end,
          o.growth_rate);
   if (o.growth_rate_end > 0.0 && o.pressure == no_limit)

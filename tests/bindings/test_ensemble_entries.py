@@ -64,6 +64,22 @@ class Entries(InFolder):
         with self.assertRaisesRegex(KeyError, "gap_pairs"):
             next(iter(bare)).gap_pairs
 
+    def test_results_of_many_parts_are_stored(self):
+        more = {"modes": {"k": 3}, "hessian": {}, "isoconf": {"instants": [1.0], "runs": 2, "density_ratio": 0.9}}
+        made = Ensemble(self.folder, dict(n=20, dim=2, stages=[(1e-2, 1e4)], analysis=more))
+        made.run([1], progress=False, workers=1)
+        (entry,) = made
+        stored = {path: entry.read(path)[0] for path in ("modes/values", "hessian/data", "hessian/indices", "isoconf/square")}
+        system = entry.system()
+        np.testing.assert_array_equal(stored["modes/values"], system.modes(3).values)
+        hessian = system.hessian()
+        np.testing.assert_array_equal(stored["hessian/data"], hessian.data)
+        np.testing.assert_array_equal(stored["hessian/indices"], hessian.indices)
+        self.assertEqual(stored["isoconf/square"].shape[1:], (1, 20, 2))
+        for name in ("copy", "tile"):
+            with self.assertRaisesRegex(ValueError, "no method"):
+                jam.ensemble.complete({"analysis": {name: {}}})
+
     def test_without_a_network_the_system_says_what_is_missing(self):
         loose = Ensemble(self.folder, dict(n=20, dim=2, stages=[], crunch=None, analysis={}))
         loose.run([1], progress=False, workers=1)

@@ -30,6 +30,7 @@ import h5py
 import numpy as np
 
 from .. import raw
+from .._api.generated import REPORTS
 from .._api.given import closed_axes, container_word, walls_of
 from ..errors import StateError, StoreError
 from .records import of_report
@@ -76,13 +77,23 @@ def provenance() -> dict[str, str]:
     }
 
 
+def _parts_of(value: Any) -> dict[Any, Any] | None:
+    """Of a result that is several, by name."""
+    if isinstance(value, dict):
+        return value
+    if is_dataclass(value):
+        return vars(value)
+    names = getattr(value, "_fields", ("data", "indices", "indptr") if hasattr(value, "indptr") else None)
+    return names and {name: getattr(value, name) for name in names}
+
+
 def _put(packing: Packing, path: str, value: Any) -> None:
-    """Any result of a call: a number, text, an array, a report, a named tuple of them."""
-    if hasattr(value, "_asdict"):
-        for key, part in value._asdict().items():
-            _put(packing, f"{path}/{key}", part)
-    elif is_dataclass(value):
+    """Any result of a call: a number, text, an array, a report, a named tuple of them, modes, a sparse matrix (CSR)."""
+    if value.__class__ in REPORTS.values():
         packing.arrays[path] = np.array(astuple(value), of_report(value.__class__)[0])
+    elif (parts := _parts_of(value)) is not None:
+        for key, part in parts.items():
+            _put(packing, f"{path}/{key}", part)
     elif isinstance(value, str):  # of fixed length, which lies in one place of a file
         data = value.encode()
         packing.arrays[path] = np.array(data, h5py.string_dtype("utf-8", max(1, len(data))))

@@ -40,6 +40,7 @@ _OF_A_DRAW = {"dim", "n", "seed", "cell_volume", "packing_fraction"}  # what sta
 _TRIED, _MOST_TRIED = (1, 2, 3), 4096  # seeds of starts, of so many spheres, that are made to see whether any has room
 _NOT_IN_START = ("seed",)  # the packing's own
 _NO_STAGE = ("crunch", "observe", "hessian", "modes")
+_NO_RESULT = ("copy", "tile")  # but another packing
 _OF_SHEAR = ("to", "mode", "stress")  # what this stage takes beside the options of its verb
 
 
@@ -141,7 +142,7 @@ _OF_SOFT = ("relax", "decompress", "shear")  # stages of spheres that overlap
 
 def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
     known = [n for n in dir(System) if "jam_" + n in generated.CALLS and callable(getattr(System, n))] + ["crystal_score"]
-    if name not in known:
+    if name not in known or name in _NO_RESULT:
         raise ProtocolError(f"no method of System has this name; {unknown(name, known)}")
     takes = [p for p in list(inspect.signature(getattr(System, name)).parameters.values())[1:] if p.name != "progress"]
     try:

@@ -105,7 +105,7 @@ class Tiles {
     for (size_t k = 0; k < side.size(); ++k) {
       const Side &p = side[k], &q = side[(k + 1) % side.size()];
       const double most = std::sqrt((p.r[0] * p.r[0] + p.r[1] * p.r[1]) * (q.r[0] * q.r[0] + q.r[1] * q.r[1]));
-      if (!(turn * cross(p, q) > proof_tuning::clear_turn * most)) return;
+      if (!(turn * cross(p, q) > proof_tuning::far_above * most)) return;
     }
     const auto length = [&](size_t k) { return lengths_.of[side[k].contact]; };
     const bool scalene = length(0) != length(1) && length(1) != length(2) && length(2) != length(0);

@@ -124,14 +124,14 @@ bool approach_closure(ProofScene &s, ProofEquations &e) {
   NormalMatrix normal(s, e);
   if (!normal.factorise()) return false;
   refine_forces(s, e, normal);
-  for (int k = 0; k < proof_tuning::newton_steps; ++k) {
+  for (;;) {
     CallScope::look();
     const NewtonStep step = newton_step(s, e, normal);
     if (!(norm(step.v) < s.cell.side())) break;  // of a singular matrix: infinite, or not a number
     ProofScene next = s;
     take_step(next, step);
     ProofEquations there = evaluate(next);
-    if (!(norm(there.f) < norm(e.f))) break;
+    if (!(norm(there.f) < 0.5 * norm(e.f))) break;
     s = std::move(next), e = std::move(there);
   }
   return true;

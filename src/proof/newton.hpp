@@ -142,7 +142,7 @@ std::vector<ImpliedContact> find_implied(const ProofScene &scene);
 struct OpenGaps {
   bool open = false;
   bool of_rattler = false;  // the pair that is not open has a rattler
-  double least = 0.0;       // least relative gap of a pair that is no contact, as far as proof_tuning::near
+  double least = 0.0;       // least relative gap of a pair that is no contact, as far as proof_tuning::far_above
   bool all_seen = false;    // no pair was left out, and no sphere reaches its own image
   double overlap = 0.0;     // by how much growth has to fall, to first order, until none of these pairs overlaps; or 0
 };
@@ -157,7 +157,8 @@ struct NearPair {
   std::vector<int32_t> image;  // n of x_i - x_j + n A
   double opening;              // |r|^2 / sigma^2 - Gamma at the scene's exact numbers, rounded once
 };
-// All pairs that are no contacts with relative gaps up to proof_tuning::near, except for a sphere and its own images.
+// All pairs that are no contacts with relative gaps up to proof_tuning::far_above, except for a sphere and its own
+// images.
 std::vector<NearPair> near_pairs(const ProofScene &scene);
 Expansion apart(const ProofScene &scene, const NearPair &pair, size_t component);  // of x_i - x_j + n A
 double opening_of(const ProofScene &scene, const NearPair &pair);

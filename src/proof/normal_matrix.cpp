@@ -87,7 +87,7 @@ double NormalMatrix::smallest_eigenvalue() const {
   Rng random(7, Stream::analysis_start);
   for (size_t k = scene_.pinned(0) ? scene_.dim : 0; k < v.size(); ++k) v[k] = random.uniform() - 0.5;
   double value = 0.0;
-  for (int pass = 0; pass < proof_tuning::inverse_iterations; ++pass) {
+  for (int pass = 0; pass < proof_tuning::most_rounds; ++pass) {
     CallScope::look();
     factor_->solve(v.data());
     pin(v);

@@ -7,27 +7,22 @@
 
 #include "core/pairs.hpp"
 #include "linalg/symmetric_eigen.hpp"
+#include "network/rattlers.hpp"
 #include "proof/expansion.hpp"
 #include "proof/tuning.hpp"
 
 namespace jam::inside {
 namespace {
 
-// x with a positive component along each of the vectors, where the search finds one (F. Rosenblatt's perceptron).
-bool positive_on_all(size_t d, const std::vector<double> &vectors, std::vector<double> &x) {
-  x.assign(d, 0.0);
-  for (int turn = 0; turn < proof_tuning::turns; ++turn) {
-    double least = HUGE_VAL;
-    size_t worst = 0;
-    for (size_t k = 0; k < vectors.size(); k += d) {
-      double along = 0.0;
-      for (size_t c = 0; c < d; ++c) along += vectors[k + c] * x[c];
-      if (along < least) least = along, worst = k;
-    }
-    if (least > 0.0) return true;
-    for (size_t c = 0; c < d; ++c) x[c] += vectors[worst + c];
-  }
-  return false;
+// x with a positive component along each of the vectors, where there is one: contacts in directions that are known
+// exactly release a sphere along it.
+bool positive_on_all(int d, const std::vector<double> &vectors, std::vector<double> &x) {
+  const size_t count = vectors.size() / static_cast<size_t>(d);
+  std::vector<char> on(count, 1);
+  const std::vector<int32_t> sphere(count, 0), wall(count, wall_partner(0));
+  const std::vector<Release> out = release_unbalanced(d, 1, sphere, wall, vectors, on, std::vector<double>(count, 0.0));
+  if (!out.empty()) x = out[0].direction;
+  return !out.empty();
 }
 
 // The pairs of a rattler, from its side: unit vectors away from the others, and gaps.
@@ -83,7 +78,7 @@ bool move_into_cage(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs
       for (size_t c = 0; c < d; ++c) vectors.push_back(cage.normal[k * d + c] / length);
       vectors.push_back(part / length);
     }
-    if (!positive_on_all(d + 1, vectors, x)) continue;
+    if (!positive_on_all(s.dim + 1, vectors, x)) continue;
     for (size_t c = 0; c < d; ++c) x[c] *= unit / x[d];
     ProofScene moved = s;
     move_sphere(moved, i, x.data());
@@ -140,12 +135,12 @@ bool inside_walls(const Packing &p) {
   return true;
 }
 
-// f(i, j, n) of all pairs that are no contacts, as far as `near`. False where an offset is no cell vector.
+// f(i, j, n) of all pairs that are no contacts, as far as `far_above`. False where an offset is no cell vector.
 template <class F>
 bool each_near_pair(const ProofScene &s, const Packing &p, F &&f) {
   const size_t d = static_cast<size_t>(s.dim);
   const auto contacts = contact_images(s);
-  const PairList pairs = find_pairs(p, 0.0, 1.0 + proof_tuning::near);
+  const PairList pairs = find_pairs(p, 0.0, 1.0 + proof_tuning::far_above);
   for (size_t k = 0; k < pairs.size(); ++k) {
     Image n(d);
     if (!lattice_image(p.cell, &pairs.offset[k * d], n.data())) return false;
@@ -192,13 +187,14 @@ double gap_to_round_wall(const ProofScene &s, int32_t i, const Image &n, double 
 OpenGaps open_gaps(const ProofScene &s, double radius, double growth) {
   const double gamma = s.rooted() ? mul_up(growth, growth) : growth;
   OpenGaps out;
-  out.least = proof_tuning::near;
+  out.least = proof_tuning::far_above;
   const Packing p = rounded(s);
   const size_t d = static_cast<size_t>(s.dim);
   const Expansion exact = s.exact_gamma();
-  // A pair that the search leaves out has a gap of `near` less rounding; that is open where the radius is far smaller.
+  // A pair that the search leaves out has a gap of `far_above` less rounding; that is open where the radius is far
+  // smaller.
   out.open = out.all_seen =
-      radius < 1e-3 * proof_tuning::near * *std::min_element(p.diameter.begin(), p.diameter.end());
+      radius < 1e-3 * proof_tuning::far_above * *std::min_element(p.diameter.begin(), p.diameter.end());
   const bool listed = each_near_pair(s, p, [&](int32_t i, int32_t j, const Image &n) {
     if (s.rooted())
       out.overlap = std::max(out.overlap, -s.gap(i, j, n.data()).value() / (s.weight(i, j) * s.gamma_per_growth()) *

@@ -41,11 +41,13 @@ struct Step {
 // Lengths in steps of `step` diameters of ratio 1; a pair that is farther open than both spheres can move has no row.
 void make_step(const ProofScene &s, const std::vector<NearPair> &pairs, double step, Step &out) {
   const size_t d = static_cast<size_t>(s.dim);
-  const double unit = std::sqrt(s.gamma());
+  // Rows of both spheres change by 2 |r| / (unit sigma2) times |s_i - s_j| each, Gamma by as much as a closed pair.
+  const double unit = std::sqrt(s.gamma()), reach = 4.0 * std::sqrt(static_cast<double>(d)),
+               growth = reach / *std::min_element(s.ratio.begin(), s.ratio.end());
   for (size_t k = 0; k < pairs.size(); ++k) {
     const NearPair &pair = pairs[k];
     const double sigma2 = s.weight(pair.i, pair.j), c = pair.opening / (s.gamma() * step);
-    if (c > proof_tuning::beyond_step * std::max(1.0, 1.0 / std::sqrt(sigma2))) continue;
+    if (c > reach / std::sqrt(sigma2) + growth) continue;
     out.pair.push_back(k), out.list.i.push_back(pair.i), out.list.j.push_back(pair.j), out.lp.c.push_back(c);
     for (size_t q = 0; q < d; ++q)
       out.lp.a.push_back((s.round(pair.j) ? -4.0
@@ -102,8 +104,8 @@ LpsEnd close_by_lps(ProofScene &scene) {
     const double gain = fit_gamma(s, pairs);
     before = std::move(found);
     if (gain > proof_tuning::still_climbs * length) continue;
-    length *= proof_tuning::shorter_step;
-    if (length < proof_tuning::last_step) {
+    length *= proof_tuning::vanishing;
+    if (length < proof_tuning::vanishing * proof_tuning::closed) {
       take_closed(s, pairs, force);
       scene = std::move(s);
       return LpsEnd::closed;

@@ -187,7 +187,7 @@ void prove_existence(const ProofScene &s, const ProofEquations &e, const ForceBo
   const double contraction = mul_up(2.0, mul_up(beta, r));
   if (!(contraction < 0.5)) return fails(ProofCause::singular, square.singular, contraction);
   const double least = std::sqrt(s.gamma()) * *std::min_element(s.ratio.begin(), s.ratio.end());
-  if (!s.implied.empty() && !(r < 1e-3 * proof_tuning::clear_turn * least))  // tiles must stay convex
+  if (!s.implied.empty() && !(r < 1e-3 * proof_tuning::far_above * least))  // tiles must stay convex
     return fails(ProofCause::singular, square.singular, contraction);
   out.radius = r;
   const double grown = add_up(square.growth_eta, mul_up(beta, mul_up(r, r))), growth = add_up(growth_above(s), grown);

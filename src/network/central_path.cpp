@@ -36,7 +36,7 @@ bool CentralPath::step() {
   std::vector<double> df, dw, dx, correction(m, 0.0);
   direction(0.0, correction, df, dw, dx);
   const double reach = std::min(longest(f_, df), longest(w_, dw));
-  const double target = mu_ * std::max(Tuning::least, std::min(Tuning::flattest, math::pow(1.0 - reach, 2.0)));
+  const double target = mu_ * std::max(Tuning::least, math::pow(1.0 - reach, 2.0));
   for (size_t k = 0; k < m; ++k)
     correction[k] =
         std::max(-Tuning::most_down * target, std::min(Tuning::most_up * target, -reach * reach * df[k] * dw[k]));

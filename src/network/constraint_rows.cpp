@@ -135,7 +135,7 @@ void NormalSolver::solve(double *x, int count) const {
 void project_on_balance(const ConstraintRows &rows, const NormalSolver &solver, std::vector<double> &f) {
   std::vector<double> y(rows.columns()), s(rows.rows()), best(f);
   double last = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_refinements; ++pass) {
+  for (int pass = 0;; ++pass) {
     rows.transpose(f.data(), y.data());
     const double residual = norm(y);
     if (!(residual < last)) {
@@ -156,7 +156,7 @@ std::vector<double> nearest_motion(const ConstraintRows &rows, const NormalSolve
                                    const std::vector<double> &y) {
   std::vector<double> x(rows.columns(), 0.0), g(rows.columns()), s(rows.rows()), r(y);
   double last = std::numeric_limits<double>::infinity();
-  for (int pass = 0; pass < most_refinements; ++pass) {
+  for (;;) {
     rows.transpose(r.data(), g.data());
     const double residual = norm(g);
     if (!(residual < 0.5 * last)) break;

@@ -103,8 +103,8 @@ std::vector<Jump> find_jumps(const Packing &p, const GapList &g, double resoluti
 
 // In a fluid some gap is the widest step too. Without a true jump pairs that are open by more than the digits of their
 // coordinates explain are no contacts.
-bool reaches_open_pairs(const ContactNetwork &net, const Jump &jump, double resolution) {
-  const double widest = std::max(JumpTuning::widest_contact, JumpTuning::resolutions * resolution);
+bool reaches_open_pairs(const ContactNetwork &net, const Jump &jump, double reach) {
+  const double widest = std::max(nearly_touching, reach);
   return jump.ratio < JumpTuning::wide &&
          std::any_of(net.gap.begin(), net.gap.end(), [widest](double h) { return h > widest; });
 }
@@ -134,6 +134,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   const GapList g = pairs_below(p, window);
   const GapResolution resolution = gap_resolution(p);
   r.resolution = resolution.relative(p);
+  const double reach = resolution.reach() / *std::min_element(p.diameter.begin(), p.diameter.end());
   r.tolerance = o.tolerance;
   r.second_contacts = -1;
   bool clear = true, wide = false;
@@ -145,7 +146,7 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
     double second = 1.0;
     for (const Jump &jump : find_jumps(p, g, r.resolution, window)) {
       ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
-      if (!may_be_network(net, p, jump) || reaches_open_pairs(net, jump, r.resolution)) continue;
+      if (!may_be_network(net, p, jump) || reaches_open_pairs(net, jump, reach)) continue;
       if (chosen) {
         second = jump.ratio;
         r.second_contacts = static_cast<int64_t>(net.size());

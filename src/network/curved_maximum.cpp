@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/cell_change.hpp"
 #include "linalg/symmetric_eigen.hpp"
 #include "network/flex.hpp"
@@ -116,7 +117,7 @@ class Maximum {
       m(size() - 1, spheres_ + 1 + k) = 1.0 / static_cast<double>(contacts_);
     }
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;  // the shortest step: symmetries are free
-    solver.setThreshold(RigidityTuning::no_rotation);
+    solver.setThreshold(RoundingTuning::sure);
     solver.compute(m);
     return solver.solve(-e);
   }
@@ -144,16 +145,17 @@ bool converge_at_curved_maximum(Packing &p, ContactNetwork &net) {
   Packing q = p;
   ContactNetwork now = net;
   double worst = HUGE_VAL;
-  for (int round = 0; round < most_refinements; ++round) {
+  for (;;) {
+    CallScope::look();
     const Maximum at(q, now);
-    if (at.size() > CurvedMaximumTuning::most_unknowns) return false;
+    if (at.size() > most_unknowns_at_curved_maximum) return false;
     const Eigen::VectorXd e = at.residual();
     const double size = e.lpNorm<Eigen::Infinity>();
     if (!(size < worst)) break;
     worst = size;
     p = q, net = now;
     const Eigen::VectorXd x = at.step(e);
-    if (!x.allFinite() || x.head(at.size()).lpNorm<Eigen::Infinity>() > CurvedMaximumTuning::longest) break;
+    if (!x.allFinite()) break;
     at.take(x, q, now);
   }
   return worst < RigidityTuning::most_residual;

@@ -36,7 +36,7 @@ std::vector<char> middle_of(const RigidityMatrix &g) {
     for (size_t k = 0; k < v.size(); ++k) speed[k / d] = std::max(speed[k / d], std::fabs(v[k]));
   const double most = *std::max_element(speed.begin(), speed.end());
   std::vector<char> middle;
-  for (const double s : speed) middle.push_back(s <= RigidityTuning::no_rotation * most);
+  for (const double s : speed) middle.push_back(s <= RoundingTuning::sure * most);
   return middle;
 }
 
@@ -202,7 +202,7 @@ bool keeps_contacts(const RigidityMatrix &g, const std::vector<double> &gap, con
                     const std::vector<double> &strain) {
   const std::vector<Relative> motion = relative_motion(g, v, strain);
   for (size_t k = 0; k < motion.size(); ++k) {
-    const double w = std::max(g.b[k] < 0 ? 0.0 : motion[k].across, RigidityTuning::least_across);
+    const double w = std::max(g.b[k] < 0 ? 0.0 : motion[k].across, least_rest);
     const double open = gap.empty() ? 0.0 : std::max(0.0, gap[k]);
     if (motion[k].along < -RigidityTuning::flex_rounding * w - open) return false;
   }

@@ -18,7 +18,7 @@ namespace {
 // of few digits the pairs along an axis may touch exactly, and the others do not. Own images touch wherever the spheres
 // are: they hold some only where contacts join all spheres.
 bool has_exact_contacts(const Packing &p, double reach) {
-  const double near = std::min(reach, ResolutionTuning::first_neighbours * diameter_mean(p));
+  const double near = std::min(reach, nearly_touching * diameter_mean(p));
   const PairList pairs = find_pairs(p, near, 1.0 + contact_gap_limit);
   double r[JAM_MAX_DIM];
   size_t exact = 0, close = 0, own = 0;
@@ -48,7 +48,7 @@ int32_t GapResolution::digits(const Packing &p) const {
 }
 
 void widen(GapResolution &resolution, const Packing &p, double error) {
-  const double widest = ResolutionTuning::widest_reach / 8.0 * *std::min_element(p.diameter.begin(), p.diameter.end());
+  const double widest = widest_reach / 8.0 * *std::min_element(p.diameter.begin(), p.diameter.end());
   resolution.error = std::max(resolution.error, std::min(error, widest));
 }
 

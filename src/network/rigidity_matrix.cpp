@@ -26,7 +26,7 @@ void orthonormalise(std::vector<std::vector<double>> &vectors) {
     for (int twice = 0; twice < 2; ++twice)
       for (const std::vector<double> &q : kept) take_out(q, v.data());
     const double after = norm(v);
-    if (!(after > RigidityTuning::no_rotation * before)) continue;
+    if (!(after > RoundingTuning::sure * before)) continue;
     for (double &x : v) x /= after;
     kept.push_back(std::move(v));
   }

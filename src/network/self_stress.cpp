@@ -63,7 +63,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
   std::vector<double> y(g_.unknowns()), s(g_.contacts()), best(f);
   double last = std::numeric_limits<double>::infinity();
   int solves = 0;
-  for (int pass = 0; refinements < 0 ? pass < most_refinements : pass <= refinements; ++pass) {
+  for (int pass = 0; refinements < 0 || pass <= refinements; ++pass) {
     apply_equilibrium(g_, f.data(), y.data());
     const double residual = norm(y);
     if (!(residual < 0.5 * last)) {
@@ -87,7 +87,7 @@ int NullSpace::project(std::vector<double> &f, int refinements) const {
 int64_t NullSpace::zero_modes() const {
   if (zeros_ >= 0) return zeros_;
   const size_t n = g_.unknowns();
-  const double floor = ZeroModeTuning::curvature * solver_.hessian().norm_bound();
+  const double floor = undecided_eigenvalue * solver_.hessian().norm_bound();
   const ContactWeights w = unit_weights(g_);
   std::vector<std::vector<double>> kernel;
   Rng rng(2, Stream::analysis_start);
@@ -104,7 +104,7 @@ int64_t NullSpace::zero_modes() const {
       std::vector<double> v(x.begin() + static_cast<std::ptrdiff_t>(n * b),
                             x.begin() + static_cast<std::ptrdiff_t>(n * (b + 1)));
       const double fresh = orthogonalise(kernel, v), length = norm(v);
-      if (fresh < ZeroModeTuning::kept || length < least_rest) {
+      if (fresh < least_rest || length < least_rest) {
         more = false;
         continue;
       }
@@ -172,7 +172,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
     out.positive = test.stressed == Verdict::yes;
     if (out.positive) out.force = test.force;
   } else if (norm(out.force) <=
-             1e-9 * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
+             RoundingTuning::sure * std::sqrt(static_cast<double>(m))) {  // orthogonal to (1, 1, ...): not of one sign
     out.force = fresh(2);
     space.project(out.force);
   }
@@ -221,7 +221,7 @@ GroundedSolver::GroundedSolver(const RigidityMatrix &g, const ContactWeights &w)
       for (size_t c = 0; c < d; ++c) {
         if (held[i] >> c & 1) continue;
         ++springs_;
-        tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += GroundedTuning::spring * scale_;
+        tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += scale_;
       }
     }
   factor_.factorise_from(1e-13 * scale_);
@@ -233,7 +233,7 @@ void GroundedSolver::solve(double *x, int count) const {
   std::vector<double> b(x, x + n * count), r(n * count), y(n);
   factor_.solve_many(x, count);
   double last = std::numeric_limits<double>::infinity(), last_change = 0.0;
-  for (int pass = 0; pass < most_refinements; ++pass) {
+  for (int pass = 0;; ++pass) {
     double residual = 0.0;
     for (int k = 0; k < count; ++k) {
       h_.multiply(x + k * n, y.data());
@@ -243,7 +243,7 @@ void GroundedSolver::solve(double *x, int count) const {
       }
       g_.remove_symmetries(&r[k * n]);
     }
-    if (residual == 0.0 || !(residual < GroundedTuning::slow * last)) break;
+    if (residual == 0.0 || !(residual < 0.5 * last)) break;
     last = residual;
     factor_.solve_many(r.data(), count);
     double change = 0.0, size = 0.0;

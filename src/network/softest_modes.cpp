@@ -21,9 +21,8 @@ class BlockIteration {
 
   SoftestModes run() {
     const size_t motions = rows_.columns > rows_.known ? rows_.columns - rows_.known : 0;
-    size_t block = SoftestModesTuning::first_block;
     double last = std::numeric_limits<double>::infinity();
-    for (int pass = 0; pass < SoftestModesTuning::most_passes; ++pass) {
+    for (;;) {
       const size_t found = out_.flexes.size();
       if (found >= motions) {
         out_.margin = 0.0;  // no eigenvalue is left that could be a margin
@@ -34,12 +33,10 @@ class BlockIteration {
         return out_;
       }
       CallScope::report_share();
-      refill(std::min(block, motions - found));
+      refill(std::min(SoftestModesTuning::block, motions - found));
       step();
-      const size_t flexes = lock();
-      if (flexes > 0) {
+      if (lock() > 0) {
         last = std::numeric_limits<double>::infinity();
-        if (x_.empty()) block = std::min<size_t>(2 * block, SoftestModesTuning::largest_block);
         continue;
       }
       if (value_[0] >= limit_ && std::fabs(value_[0] - last) <= SoftestModesTuning::settled * value_[0]) break;
@@ -113,8 +110,7 @@ class BlockIteration {
     std::vector<std::vector<double>> rest;
     std::vector<double> values;
     const auto converged = [&](size_t k) {
-      return value_[k] < SoftestModesTuning::zero * limit_ ||
-             (value_[k] < limit_ && k < before_.size() && value_[k] > SoftestModesTuning::converged * before_[k]);
+      return value_[k] < limit_ && k < before_.size() && value_[k] >= SoftestModesTuning::converged * before_[k];
     };
     const std::vector<double> now = value_;
     for (size_t k = 0; k < x_.size(); ++k)

@@ -42,8 +42,8 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
   double push = 0.0, pull = 0.0;
   for (double &v : f) {
     const double size = std::fabs(v);
-    if (size > Tuning::zero && size < Tuning::sure) return out;
-    if (size <= Tuning::zero) v = 0.0;
+    if (size > RoundingTuning::zero && size < RoundingTuning::sure) return out;
+    if (size <= RoundingTuning::zero) v = 0.0;
     (v > 0.0 ? push : pull) += std::fabs(v);
   }
   out.decided = true;
@@ -67,9 +67,10 @@ StressCone of_one_state(const ConstraintRows &rows, const NormalSolver &solver, 
 
 // The step length along dw that minimises - sum log(w + t dw), which is convex in t; inside the boundary.
 double best_length(const std::vector<double> &w, const std::vector<double> &dw) {
-  double low = 0.0, high = Tuning::longest_step;
+  double low = 0.0, high = std::numeric_limits<double>::infinity();
   for (size_t k = 0; k < w.size(); ++k)
-    if (w[k] + high * dw[k] < 0.0) high = -w[k] / dw[k];
+    if (dw[k] < 0.0) high = std::min(high, -w[k] / dw[k]);
+  if (!std::isfinite(high)) return low;  // nothing closes: these rows carry no positive stress
   high *= 1.0 - 1e-12;
   for (int pass = 0; pass < 50; ++pass) {
     const double t = 0.5 * (low + high);
@@ -100,7 +101,7 @@ std::vector<std::vector<char>> guess_support(const CentralPath &path) {
 bool drop_pulled(const std::vector<double> &force, std::vector<char> &guess) {
   size_t pulled = 0;
   for (size_t k = 0; k < guess.size(); ++k)
-    if (guess[k] && !(force[k] > Tuning::zero)) guess[k] = 0, ++pulled;
+    if (guess[k] && !(force[k] > RoundingTuning::zero)) guess[k] = 0, ++pulled;
   return pulled > 0 && pulled <= Tuning::most_pulled;
 }
 
@@ -138,7 +139,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
       if (out.carrying[k]) out.force[k] = f[at++] / mean;
     // A guess that carries nothing loses its forces in the projection.
     if (!(mean > least_rest)) return Support::no;
-    if (!(*std::min_element(f.begin(), f.end()) > Tuning::zero * mean)) return Support::no;
+    if (!(*std::min_element(f.begin(), f.end()) > RoundingTuning::zero * mean)) return Support::no;
   }
   if (count == m) return Support::whole;
   // Opens what does not carry; what carries is closed again by the nearest correction.
@@ -164,7 +165,7 @@ Support certify_support(const ConstraintRows &rows, const NormalSolver &solver, 
     else
       least = std::min(least, y[k]);
   out.motion = std::move(x);
-  const bool opens = least > Tuning::sure * size && closed < Tuning::zero * size;
+  const bool opens = least > RoundingTuning::sure * size && closed < RoundingTuning::zero * size;
   return opens ? Support::whole : count > 0 ? Support::positive : Support::no;
 }
 
@@ -224,7 +225,7 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
   project_on_balance(rows, unit, f);
   mean = mean_size(f);
   for (double &v : f) v /= mean;
-  if (*std::min_element(f.begin(), f.end()) <= Tuning::zero) f.clear();
+  if (*std::min_element(f.begin(), f.end()) <= RoundingTuning::zero) f.clear();
   return f;
 }
 
@@ -238,7 +239,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
   std::vector<double> equal(m, 1.0);
   project_on_balance(rows, solver, equal);
   const double mean = mean_size(equal);
-  if (mean > least_rest && *std::min_element(equal.begin(), equal.end()) > Tuning::sure * mean) {
+  if (mean > least_rest && *std::min_element(equal.begin(), equal.end()) > RoundingTuning::sure * mean) {
     out.decided = true, out.carrying.assign(m, 1), out.force = equal;
     for (double &v : out.force) v /= mean;
     const std::vector<double> f = centre(rows, solver, std::vector<double>(m, 1.0), true, out.factorisations);
@@ -246,7 +247,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     return out;
   }
   CentralPath path(rows);
-  double next = Tuning::first_guess, widest = RigidityTuning::flex_rounding;
+  double next = Tuning::next_guess, widest = RigidityTuning::flex_rounding;
   std::vector<double> opens_all;
   bool going = true;
   while (going && !out.decided && path.steps() < Tuning::most_steps && path.mu() > Tuning::least_mu) {

@@ -46,7 +46,7 @@ std::vector<size_t> tied_coordinates(const SoftState &state, const std::vector<c
   const auto larger = [](double x, double y) { return std::fabs(x) < std::fabs(y); };
   for (size_t m = 0; m < motion.size(); ++m) {
     const auto pivot = std::max_element(motion[m].begin(), motion[m].end(), larger);
-    if (!(std::fabs(*pivot) > RigidityTuning::no_rotation * state.diameter_mean())) continue;
+    if (!(std::fabs(*pivot) > RoundingTuning::sure * state.diameter_mean())) continue;
     const auto at = static_cast<size_t>(pivot - motion[m].begin());
     tied.push_back(at);
     for (size_t l = m + 1; l < motion.size(); ++l) {

@@ -73,7 +73,7 @@ bool balance(CrunchState &s, ContactNetwork &net) {
   s.system.set_graph(p.dim, static_cast<int32_t>(p.n()), net.pairs, s.o.threads);
   std::vector<double> weight(net.force);
   for (double &w : weight) w *= w;
-  GapRows rows(net, p.dim, net.vector, weighted_ground, s.system);
+  GapRows rows(net, p.dim, net.vector, translation_ground, s.system);
   rows.weigh(weight);
   if (!rows.factorise()) return false;
   rows.balance(net.force);

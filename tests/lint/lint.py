@@ -59,6 +59,7 @@ TUNED = {
     "linalg": ["newton_system.hpp"],
     "analysis": [],
     "pore": ["sphere_hull.cpp"],
+    "proof": ["open_gaps.cpp", "theorem.cpp"],
     "crunch": [],
     "dynamics": [],
 }

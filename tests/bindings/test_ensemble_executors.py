@@ -60,7 +60,8 @@ class Executors(InFolder):
         self.ensemble = Ensemble(self.folder / "e", SMALL)
 
     def check(self):
-        self.assertEqual(self.ensemble.status(SEEDS).done, len(SEEDS))
+        status = self.ensemble.status(SEEDS)
+        self.assertEqual(status.done, len(SEEDS), (status, self.ensemble.failures()))
         for entry in self.ensemble:
             if entry.seed not in SEEDS:
                 continue

@@ -7,6 +7,7 @@ import inspect
 import re
 from dataclasses import fields
 from enum import IntEnum
+from pathlib import Path
 from typing import Any
 
 import h5py
@@ -60,10 +61,12 @@ _MEANING = {
 
 def _members(cls: type) -> list[tuple[IntEnum, str]]:
     """Members of an enum with the meaning that stands beside each in the source."""
-    try:
-        found = dict(re.findall(r"^    (\w+) = -?\d+  # (.*)$", inspect.getsource(cls), flags=re.M))
+    try:  # not by inspect: Python 3.11 cannot parse on two threads at once
+        source = Path(generated.__file__).read_text("utf-8")
     except OSError:  # installed without sources
-        found = {}
+        source = ""
+    own = re.search(rf"^class {cls.__name__}\(.*?(?=^\S|\Z)", source, flags=re.M | re.S)
+    found = dict(re.findall(r"^    (\w+) = -?\d+  # (.*)$", own[0] if own else "", flags=re.M))
     members: Any = cls
     return [(m, found.get(m.name, "")) for m in members]
 

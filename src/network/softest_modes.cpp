@@ -21,6 +21,7 @@ class BlockIteration {
 
   SoftestModes run() {
     const size_t motions = rows_.columns > rows_.known ? rows_.columns - rows_.known : 0;
+    size_t block = SoftestModesTuning::first_block;
     double last = std::numeric_limits<double>::infinity();
     for (;;) {
       const size_t found = out_.flexes.size();
@@ -33,13 +34,15 @@ class BlockIteration {
         return out_;
       }
       CallScope::report_share();
-      refill(std::min(SoftestModesTuning::block, motions - found));
+      refill(std::min(block, motions - found));
       step();
       if (lock() > 0) {
         last = std::numeric_limits<double>::infinity();
+        if (x_.empty()) block = std::min(2 * block, SoftestModesTuning::largest_block);
         continue;
       }
-      if (value_[0] >= limit_ && std::fabs(value_[0] - last) <= SoftestModesTuning::settled * value_[0]) break;
+      // NaN ends it too
+      if (!(value_[0] < limit_) && !(std::fabs(value_[0] - last) > SoftestModesTuning::settled * value_[0])) break;
       last = value_[0];
     }
     out_.margin = value_.empty() ? 0.0 : value_[0];
@@ -110,7 +113,8 @@ class BlockIteration {
     std::vector<std::vector<double>> rest;
     std::vector<double> values;
     const auto converged = [&](size_t k) {
-      return value_[k] < limit_ && k < before_.size() && value_[k] >= SoftestModesTuning::converged * before_[k];
+      return value_[k] < RoundingTuning::sure * limit_ ||
+             (value_[k] < limit_ && k < before_.size() && value_[k] > SoftestModesTuning::converged * before_[k]);
     };
     const std::vector<double> now = value_;
     for (size_t k = 0; k < x_.size(); ++k)

@@ -55,9 +55,9 @@ constexpr double least_rest = 1e-6;
 
 // ---- the softest modes by block iteration
 struct SoftestModesTuning {
-  static constexpr size_t block = 4;
-  static constexpr double settled = 1e-3;   // relative change of the margin in one pass
-  static constexpr double converged = 0.3;  // part of the value one pass before that a flex keeps
+  static constexpr size_t first_block = 4, largest_block = 32;  // it doubles while all of it are flexes
+  static constexpr double settled = 1e-3;                       // relative change of the margin in one pass
+  static constexpr double converged = 0.3;                      // part of the value one pass before that a flex keeps
 };
 
 // ---- the cone of self-stresses

@@ -23,7 +23,7 @@ double ratio_of_diameters(const Packing &p) {
 double size_spread(const Packing &p) { return 1.0 - 1.0 / ratio_of_diameters(p); }
 
 double steps(const Packing &p, const jam_crunch_options &o) {
-  const double far = contact_gap(p) < T::close_gap ? 0.0 : T::from_afar;
+  const double far = contact_gap(p) < Tuning().close_gap ? 0.0 : T::from_afar;
   const double alike = T::near_jamming * std::sqrt(static_cast<double>(p.n())) +
                        (o.method == JAM_CRUNCH_SEQUENTIAL_LP ? T::steps_of_lp * far : far);
   return alike * (1.0 + T::more_per_e_fold * math::log(ratio_of_diameters(p)));
@@ -64,11 +64,12 @@ double pairs_near_jamming(const Packing &p) {
   return math::pow(T::pairs_per_dim, p.dim + 1.0) * static_cast<double>(p.n());
 }
 
-// From a start with few neighbours at least as many of the nearest pairs as a list has near jamming.
+// From a start with few neighbours at least as many of the nearest pairs as a list has near jamming, and about twice as
+// many at most.
 PairList enough_pairs(const Packing &p, const jam_crunch_options &o, PairList pairs, double reach) {
   const double n = static_cast<double>(p.n()), wanted = std::min(pairs_near_jamming(p), 0.5 * n * (n - 1.0));
   while (o.neighbour_radius == 0.0 && static_cast<double>(pairs.size()) < wanted) {
-    reach = T::widen * std::max(reach, Tuning().min_bound * diameter_mean(p));
+    reach = math::pow(2.0, 1.0 / p.dim) * std::max(reach, Tuning().min_bound * diameter_mean(p));
     pairs = find_pairs(p, reach, 1.0);
   }
   return pairs;
@@ -78,7 +79,7 @@ PairList enough_pairs(const Packing &p, const jam_crunch_options &o, PairList pa
 Part largest_lp(const Packing &p, const jam_crunch_options &o) {
   const Tuning t;
   const bool sequence = o.method == JAM_CRUNCH_SEQUENTIAL_LP;
-  const bool widens = sequence && o.step_bound == 0.0 && contact_gap(p) > T::close_gap;
+  const bool widens = sequence && o.step_bound == 0.0 && contact_gap(p) > t.close_gap;
   const double bound = widens ? t.max_bound : first_bound(p, o, t), reach = lp_reach(p, o, t, bound);
   const PairList pairs = enough_pairs(p, o, find_pairs(p, reach, sequence ? growth(p, 1.0) : 1.0), reach);
   PackingLp lp = make_lp(p, pairs, diameter_mean(p));
@@ -141,8 +142,8 @@ double measured_rate(int size) {
 // a path that says nothing of them. Pairs that an LP without gain would close are contacts here.
 double scatter(const Packing &p) {
   const size_t touching = find_pairs(p, 0.0, 1.0 + Tuning().min_bound).size();
-  const bool wide = p.dim == 2 && ratio_of_diameters(p) < T::alike;
-  return wide || static_cast<double>(touching) > pairs_near_jamming(p) ? T::wide_scatter : T::scatter;
+  const bool wide = (p.dim == 2 && size_spread(p) == 0.0) || static_cast<double>(touching) > pairs_near_jamming(p);
+  return wide ? T::scatter * T::scatter * T::scatter : T::scatter;
 }
 
 }  // namespace

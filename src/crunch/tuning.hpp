@@ -25,7 +25,6 @@ struct Tuning {
   static constexpr double least_growth = 0.25;  // at round walls, of the growth that an LP promises (Armijo's rule)
   // |sum y - 1| of an answer that is used: as near to its tolerance as the gap of one that counts as solved.
   static constexpr double lp_unit_sum = InteriorPointTuning::near_gap * lp_rounding;
-  static constexpr double least_part = 1e-6;  // of the step of an answer; if less is safe, the input was bad
 
   // ---- from LPs to the barrier path and back
   double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
@@ -35,8 +34,8 @@ struct Tuning {
   // Free cell: the path at fixed cell ends at this duality gap, and the one with strain begins at this opening.
   double free_gap = 1e-6, free_opening = 1e-4;
   // A crystal, where LPs are cheaper: more rows than carrying_rows of lp/tuning.hpp have this share of the mean force.
-  // Counted from this gain or duality gap on: a large mu blurs the forces.
-  double crystal_force = 0.1, crystal_gap = 1e-5;
+  // Counted from this gain or duality gap on: a large mu blurs the forces. So close to jamming are medians of gaps too.
+  double crystal_force = 0.1, close_gap = 1e-5;
 
   // ---- barrier path
   double end_roundings = 4.0;  // it ends at a duality gap of so many roundings of a closed contact, or after
@@ -53,15 +52,13 @@ struct Tuning {
   double reduction = 0.2;    // of mu at its maximum
   double centred = 0.005;    // squared Newton decrement a row that counts as the maximum
   int max_steps_at_mu = 40;  // more of them, or as many short ones without progress as stall an LP, are a saddle
-  double progress = 0.6;     // the decrement falls by this factor: short steps are counted again
-  double increase = 10.0;    // of mu at a saddle
+  // The decrement falls by this factor: short steps are counted again. Steps of the polish that gain less are the last.
+  double progress = 0.6;
+  double increase = 10.0;  // of mu at a saddle
   // Spheres in wide holes: a direction is covered by a line to a neighbour within 1/sqrt(d) times the first.
   double covered = 0.9, farthest_reach = 2.4;
 
   // ---- identify: active set, narrow LPs, verdict
-  // Newton steps of the polish: so many, while they at least halve gaps that are above rounding.
-  static constexpr int polish_steps = 4;
-  static constexpr double polish_progress = 0.5;
   double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
@@ -79,7 +76,6 @@ struct Tuning {
   // ---- end at a finite duality gap
   // An LP that ends at this part of the path's gap names contacts (finite_gap.py: 1e-2 names 1e-3 more, 1e-4 no fewer).
   double lp_gap_fraction = 1e-3;
-  double doubles_from = 1e-11;  // gap in that LP from which factors are doubles: floats no longer balance there
   double lp_to_path_gap = 0.6;  // duality gap of that LP's forces over the gap of the path: 0.50 to 0.59
   double balanced = RigidityTuning::most_residual;  // largest net force on a sphere there, over the mean force
 
@@ -98,14 +94,13 @@ constexpr double before_verdict = 0.95;
 
 // ---- costs that the estimate of a crunch takes as known
 struct EstimateTuning {
-  // Lists near jamming have this to the power of d + 1 pairs a sphere (d = 2 ... 5: 3, 5, 7.8, 12). Lists of fewer
-  // pairs get a reach that is longer by the second factor, again and again.
-  static constexpr double pairs_per_dim = 1.5, widen = 1.1;
-  // Factorisations: this times sqrt(N), and where the median gap of contacts to be is wider, so many more.
+  // Lists near jamming have this to the power of d + 1 pairs a sphere (d = 2 ... 5: 3, 5, 7.8, 12).
+  static constexpr double pairs_per_dim = 1.5;
+  // Factorisations: this times sqrt(N), and where the median gap of contacts to be is above close_gap, so many more.
   // Medians near jamming, grown at 3e-4 or 1e-3: 17 (N = 128), 34 (512), 34 and 63 (1024), 83 (2048), 70 (4096), 232
   // (16384); from p = 500: 82 (1024) and 175 (2048); from random starts 102 to 134 (128 to 512), 156 (1024) and 241
   // (2048); to duality gaps of 1e-6 to 1e-9: 24 to 75. Of sequential LPs, so many more LPs.
-  static constexpr double near_jamming = 1.4, close_gap = 3e-5, from_afar = 100.0;
+  static constexpr double near_jamming = 1.4, from_afar = 100.0;
   // The small spheres of a mixture roam in holes, where the barrier has saddles: at ratios of 3, 10 and 30 a path takes
   // 1.1, 1.8 and 2.2 times as many, with half the spheres small or with equal volumes an octave.
   static constexpr double more_per_e_fold = 0.35;
@@ -114,9 +109,9 @@ struct EstimateTuning {
   static constexpr double front_rate = 0.5, per_pair = 4e-7;
   static constexpr double grown = 0.3;  // a list gets shorter after this part of the growth to jamming
   // Nine of ten crunches take between the estimate over and times the first: 33 of estimate.py took 0.5 to 3.9 times,
-  // nine mixtures 0.39 to 4.6. The second is for crystals and for disks that differ in size by less than `alike`: by an
-  // earlier estimate of more numbers 0.02 to 100 times, and 1.4 to 23 (twenty of 1000: median 19, one 705).
-  static constexpr double scatter = 7.0, wide_scatter = 300.0, alike = 1.1;
+  // nine mixtures 0.39 to 4.6. Its third power is for crystals and equal disks: by an earlier estimate of more numbers
+  // 0.02 to 100 times, and 1.4 to 23 (twenty of 1000: median 19, one 705).
+  static constexpr double scatter = 7.0;
   static constexpr double too_high = 2.0;  // memory over what crunches took: to 1.6 in estimate.py, 1.8 in d = 8
 };
 

@@ -178,19 +178,17 @@ void PathMatrix::reset(size_t rows, size_t unknowns) {
   diagonal_.resize(unknowns);
 }
 
-// Rows couple spheres up to far_slack times the slack of the carrying rows. They are chosen again for a new list, when
-// a screened row came near, and when many could go.
+// Rows couple spheres up to far_slack times the slack of the carrying rows. They are chosen again for a new list, and
+// when a screened row came near.
 void PathMatrix::choose_coupled(const Packing &p, const BarrierProblem &b) {
   const std::vector<double> &c = b.lp.c;
   using T = WorkingSetTuning;
   const double slack = T::far_slack * carrying_slack(c, p.dim, static_cast<int32_t>(p.n()));
   std::vector<char> coupled(c.size(), 0);
   for (const size_t k : coupled_) coupled[k] = 1;
-  size_t wanted = 0, missing = 0;
-  for (size_t k = 0; k < c.size(); ++k) wanted += c[k] <= slack, missing += !coupled[k] && c[k] <= T::joins_too * slack;
-  if (!coupled_.empty() && missing == 0 &&
-      static_cast<double>(wanted) > T::still_wanted * static_cast<double>(coupled_.size()))
-    return;
+  bool near = coupled_.empty();
+  for (size_t k = 0; k < c.size(); ++k) near = near || (!coupled[k] && c[k] <= T::joins_too * slack);
+  if (!near) return;
   coupled_.clear();
   pairs_ = PairList();
   for (size_t k = 0; k < c.size(); ++k) {

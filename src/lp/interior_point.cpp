@@ -205,14 +205,14 @@ LpSolution InteriorPoint::solve(const PackingLp &lp, const IpmControl &control, 
                              : stalled_iterations + 1;
     best_merit = std::min(best_merit, merit), best_balance = std::min(best_balance, dual_norm_);
     if (monitor && monitor->interrupted()) break;
-    if (stalled_iterations >= max_stalled || out.iterations >= control.max_iterations) {
+    if (stalled_iterations >= max_stalled) {
       out.solved = gap <= Rules::near_gap * control.tolerance && dual_norm_ <= Rules::rough_balance;
       break;
     }
     if (monitor) monitor->expect_factorisations(system_.factorisations);
     weights();
     // Directions from floats leave some imbalance: doubles take it out over the second half of the digits.
-    const double least = control.doubles_from < 0.0 ? std::sqrt(control.tolerance) : control.doubles_from;
+    const double least = std::sqrt(control.tolerance);
     if (!factor_.factorise(lp_->a.data(), weight_.data(), diagonal_.data(), gap, least)) break;
     if (!predictor_corrector(main_)) break;
     Steps a = longest(main_);

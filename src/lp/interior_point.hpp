@@ -32,8 +32,6 @@ struct WorkingSet {
 struct IpmControl {
   double tolerance = 1e-15;     // on the sum of complementarity products, which is the duality gap in units of Gamma
   double early_fraction = 0.0;  // > 0: enough when that sum is below this fraction of the gain g (an early LP)
-  double doubles_from = -1.0;   // sum from which factors are doubles, which balance better; < 0: tolerance^(1/2)
-  int max_iterations = InteriorPointTuning::max_iterations;
   int correctors = InteriorPointTuning::max_correctors;
   int threads = 1;
   // Of the diagonal that holds translations, over the mean weight. 0: spheres that their contacts hold softly, by weak

@@ -75,7 +75,7 @@ LpCheck check_lp(const PackingLp &lp, const LpSolution &x) {
   for (size_t k = 0; k < force.size(); ++k) {
     const double moved = std::fabs(k < spheres ? x.s[k] : x.strain[k - spheres]);
     out.infeasibility = std::max(out.infeasibility, moved - lp.bound);
-    if (moved > at_bound * lp.bound)
+    if (moved > LineSearchTuning::of_feasible * lp.bound)
       held += std::fabs(force[k]);  // the bound carries it
     else
       unbalanced = std::max(unbalanced, std::fabs(force[k]));

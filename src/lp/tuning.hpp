@@ -17,9 +17,7 @@ struct WorkingSetTuning {
   // the threshold; then all rows that have lost `joins_too` join too.
   static constexpr double of_screened = 0.9, joins = 0.3, joins_too = 0.5;
   static constexpr double blocks = 0.5;  // a screened row that leaves less of the step joins
-  // On the path the set is chosen again when a screened row has lost `joins_too` of the limit, or when fewer rows than
-  // this share are wanted.
-  static constexpr double still_wanted = 0.8;
+  // On the path the set is chosen again when a screened row has lost `joins_too` of the limit.
   static constexpr double same_order = 0.05;  // change of its size up to which the elimination order stays
 };
 
@@ -35,7 +33,7 @@ struct InteriorPointTuning {
   // roughly balanced.
   static constexpr double progress = 0.9, near_gap = 1e3;
   static constexpr int max_stalled = 8, max_stalled_warm = 3;
-  static constexpr int max_iterations = 80, max_correctors = 3;
+  static constexpr int max_correctors = 3;
   static constexpr double max_cut = 0.05, least_cut = 1e-6, cut_per_gap = 0.1;  // of the step to the boundary
   static constexpr double least_ratio = 1e-8, of_tolerance = 0.1;               // targets of mu
   static constexpr double whole_step = 0.9, least_win = 0.03;                   // longer steps need no corrector
@@ -57,13 +55,10 @@ struct CorrectorTuning {
 
 // ---- the barrier problem: search along a direction, up to this share of the way to the boundary
 struct LineSearchTuning {
-  static constexpr double longest = 4.0, of_feasible = 0.995;
+  static constexpr double longest = 4.0, of_feasible = 0.995;  // longer moves of an LP are at its bound
   static constexpr int golden_sections = 14;
   static constexpr double nearly_whole = 0.1;  // a best step so near to the Newton step is the Newton step
 };
-
-// ---- displacements above this share of the bound are at it
-constexpr double at_bound = 0.999;
 
 // ---- what a solver may leave: of rows, over the bound; of multipliers, over their mean; of |sum y - 1|. Spheres that
 // grow by less stay. The loosest lp_tolerance too.

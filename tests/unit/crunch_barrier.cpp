@@ -138,7 +138,7 @@ struct PathRun {
 // With as many saddles as it takes, in crystals too.
 BarrierPathControl patient() {
   BarrierPathControl control;
-  control.tuning.crystal_gap = 0.0;
+  control.tuning.close_gap = 0.0;
   return control;
 }
 

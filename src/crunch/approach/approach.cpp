@@ -42,7 +42,7 @@ bool path_is_shorter(const CrunchState &s, double gain, double step) {
   const Tuning &t = s.tuning;
   if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.history.stage.path_taken) return false;
   const double isostatic = s.last.lp.dim * static_cast<double>(s.last.lp.n);
-  if (gain < t.crystal_gap && hyperstatic(s.last.answer.y, isostatic, t)) return false;
+  if (gain < t.close_gap && hyperstatic(s.last.answer.y, isostatic, t)) return false;
   return step > t.min_bound || step * step > std::max(t.curvature_ratio * gain, contact_gap_limit);
 }
 
@@ -79,7 +79,6 @@ LpAnswer solve_lp(CrunchState &s, IpmControl control) {
       control.multipliers = nullptr;
       control.correctors = 0;
       control.early_fraction = 0.0;
-      control.max_iterations = 200;
       answer = try_solver(s, JAM_LP_IPM, control);
     }
     if (answer == LpAnswer::refused) s.monitor.log(JAM_LOG_WARNING, "the interior point failed twice; Clp takes over");

@@ -63,7 +63,7 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
     alpha *= 0.5;
     shifted = pairs;
     q = moved(p, shifted, x, alpha, unit, basis);
-    return alpha < Tuning::least_part;
+    return alpha < lp_rounding;
   };
   const auto fits = [&] { return fit_curved_wall(q, p, 0.5 * alpha * x.g) || !(x.g > 0.0); };
   const double allowed = Tuning().step_overlap(p);
@@ -120,8 +120,9 @@ LpStep make_step(CrunchState &s, double reach) {
   // What a simplex solver leaves of a closed row, and rounding.
   s.last.active =
       find_active_set(s.last.lp, s.last.answer, std::max(2.0 * lp_rounding * s.next.bound, s.tuning.closed_gap));
-  s.last.at_bound = std::count_if(s.last.answer.s.begin(), s.last.answer.s.end(),
-                                  [&](double x) { return std::fabs(x) > at_bound * s.last.lp.bound; });
+  const double most = LineSearchTuning::of_feasible * s.last.lp.bound;
+  s.last.at_bound =
+      std::count_if(s.last.answer.s.begin(), s.last.answer.s.end(), [&](double x) { return std::fabs(x) > most; });
   if (s.history.details()) s.history.take_network(s.out.packing, s.last.lp, s.last.answer);
   const double alpha = take_step(s.out.packing, s.last.pairs, reach, s.last.answer, unit, s.next.strain);
   const double gain = gain_of(s.last.answer),

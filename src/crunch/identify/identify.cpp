@@ -96,14 +96,14 @@ class Polish {
     const auto open = [&] { return excess_contacts(net, p) > 0 ? norm(net.gap) : largest_entry(net.gap); };
     constexpr double rounding = 0.5 * std::numeric_limits<double>::epsilon();
     double worst = open();
-    for (int round = 0; round < Tuning::polish_steps && worst > rounding; ++round) {
+    for (int round = 0; worst > rounding; ++round) {
       log("polish %d largest gap %.2e", round, largest_entry(net.gap));
       if (monitor_ && monitor_->interrupted()) return false;
       Packing p_old = p;
       ContactNetwork old = net;
       close_once(p, net);
       const double now = open();
-      if (!(now < Tuning::polish_progress * worst)) {  // rounding, or the contacts cannot all close
+      if (!(now < t_.progress * worst)) {  // rounding, or the contacts cannot all close
         if (!(now < worst)) p = std::move(p_old), net = std::move(old);
         break;
       }

@@ -72,7 +72,7 @@ class BarrierPath {
                    matrix_.coupled(), correctors_, alpha_p_, alpha_d_, last_step_);
       out.reached = balance_ < InteriorPointTuning::rough_balance && gap_ <= end_;
       const bool crystal =
-          out.increases > 0 && gap_ < t_.crystal_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
+          out.increases > 0 && gap_ < t_.close_gap && hyperstatic(b_.y, static_cast<double>(p_.position.size()), t_);
       if (out.reached || crystal || out.factorisations >= t_.max_path_factorisations || monitor_.interrupted() ||
           report() || !newton())
         break;

@@ -56,7 +56,6 @@ bool name_contacts(CrunchState &s, const std::vector<double> &path, ContactNetwo
   for (size_t k = 0; k < path.size(); ++k) gap += path[k] * s.last.lp.c[k];
   control.tolerance = s.tuning.lp_gap_fraction * gap;
   control.threads = s.o.threads;
-  control.doubles_from = s.tuning.doubles_from;
   control.multipliers = &path;
   s.last.answer = s.interior_point.solve(s.last.lp, control, &s.monitor);
   if (s.hooks.answer) s.hooks.answer(s.last.answer, JAM_LP_IPM);

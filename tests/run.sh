@@ -45,13 +45,13 @@ fi
 # second one prints follows at the end.
 if [ $# -eq 0 ]; then
   log=$(mktemp)
+  trap 'rm -f "$log"' EXIT
   sh tests/run.sh sanitizers threads fuzz >"$log" 2>&1 &
   second=$!
   status=0
   sh tests/run.sh release kernels alone || status=1
   wait "$second" || status=1
   cat "$log"
-  rm "$log"
   exit $status
 fi
 

@@ -247,7 +247,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
     return out;
   }
   CentralPath path(rows);
-  double next = Tuning::next_guess, widest = RigidityTuning::flex_rounding;
+  double next = Tuning::next_guess * Tuning::next_guess, widest = RigidityTuning::flex_rounding;
   std::vector<double> opens_all;
   bool going = true;
   while (going && !out.decided && path.steps() < Tuning::most_steps && path.mu() > Tuning::least_mu) {

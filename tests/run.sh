@@ -41,8 +41,8 @@ if [ "$parts" != quick ]; then
     python3-breathe python3-myst-parser furo locales
 fi
 
-# Each part waits at times, for a single program or a browser: two at once take the time of five sixths. What the
-# second one prints follows at the end.
+# Parts leave a core idle while they wait for a single program or a browser, so two run at once. The output of the
+# second one is printed at the end.
 if [ $# -eq 0 ]; then
   log=$(mktemp)
   trap 'rm -f "$log"' EXIT

@@ -65,7 +65,8 @@ struct StressConeTuning {
   static constexpr int most_steps = 60;  // on the path, and to the analytic centre
   // The support is guessed each time when mu has fallen to the first part, and first at its square: a guess at 0.1 took
   // three more factorisations for 2048 disks, a fifth of the verdict. The path ends at the second mu: there some forces
-  // are by this smaller than others, and the centre is given up. At 1e-11 that crystal is undecided, too.
+  // are by this smaller than others, and the centre is given up. At 1e-11 the triangular crystal that
+  // CentralPathTuning names is undecided.
   static constexpr double next_guess = 0.1, least_mu = 1e-12;
   // The centre: the decrement above which a step is damped.
   static constexpr double damped = 0.25;

@@ -1,4 +1,4 @@
-"""Packings of one protocol in a folder: making them, and reading what is there."""
+"""Packings of one protocol in a folder: the call that makes one in a worker, campaigns of many, and reading what is there."""
 from __future__ import annotations
 
 import json

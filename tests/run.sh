@@ -10,6 +10,7 @@
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
 # More run when they are named, as they take long:
 #   clang       the library without sanitizers by Clang, and its C tests
+#   packages    installs what the parts above and `browser` need, and does nothing else
 #   quick       a loop of two minutes: the library for d = 2 and 3, and tests that end within seconds. It installs
 #               only what a C library needs
 #   openblas    crunches by the products of OpenBLAS (JAM_BLAS=openblas), as on three processors: packings end
@@ -74,6 +75,14 @@ export OPENBLAS_NUM_THREADS=1
 status=0
 begun=$(date +%s)
 part() { echo "== $1, after $(($(date +%s) - begun)) s"; }
+# A node of another source than Debian's brings its own npm.
+need_javascript() {
+  # shellcheck disable=SC2046
+  (need_packages emscripten swig $(for pair in node:nodejs npm:npm; do
+    command -v "${pair%:*}" >/dev/null || echo "${pair#*:}"; done)) >/dev/null 2>&1
+}
+if wants packages; then need_javascript || true; fi
+
 if wants release; then
 part "release build"
 # For /usr, as the Debian packages are made of it; nothing is installed there. -U: its folders follow the prefix.
@@ -195,10 +204,7 @@ fi
 
 if wants browser; then
 part "browser"
-# A node of another source than Debian's brings its own npm.
-javascript=$(for pair in node:nodejs npm:npm; do command -v "${pair%:*}" >/dev/null || echo "${pair#*:}"; done)
-# shellcheck disable=SC2086
-if (need_packages emscripten swig $javascript) >/dev/null 2>&1; then
+if need_javascript; then
 cmake -C pkgconfig/presets/wasm.cmake -S . -B build-wasm -G Ninja >/dev/null
 cmake --build build-wasm -j "$jobs"
 ctest --test-dir build-wasm -j "$at_once" --output-on-failure --no-tests=error || status=1

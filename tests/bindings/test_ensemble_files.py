@@ -25,14 +25,15 @@ class Protocols(unittest.TestCase):
         self.assertEqual(full, jam.ensemble.complete({"start": {"n": 128}}))
 
     def test_what_no_crunch_made_is_unknown(self):
-        with tempfile.TemporaryDirectory() as folder:
-            e = Ensemble(folder, dict(SMALL, crunch=None, analysis={}))
-            self.assertEqual(e.run([1, 2], progress=False, workers=1).jammed, 0)
-            table = e.table()
-            for row, entry in zip(table, e):
-                system = entry.system()
-                self.assertAlmostEqual(row["packing_fraction"], system.packing_fraction, 12)
-                self.assertAlmostEqual(row["diameter_mean"], system.diameters.mean(), 12)
+        for scene in ({"container": "ball"}, {}):
+            with tempfile.TemporaryDirectory() as folder:
+                e = Ensemble(folder, dict(SMALL, crunch=None, analysis={}, **scene))
+                self.assertEqual(e.run([1, 2], progress=False, workers=1).jammed, 0)
+                table = e.table()
+                for row, entry in zip(table, e, strict=True):
+                    system = entry.system()
+                    self.assertAlmostEqual(row["packing_fraction"], system.packing_fraction, 12)
+                    self.assertAlmostEqual(row["diameter_mean"], system.diameters.mean(), 12)
         for name in ("rattlers", "contacts", "excess_contacts", "strictly_jammed", "lp_solves", "contacts_kept"):
             self.assertEqual(table[name].tolist(), [-1, -1], name)
         for name in ("max_overlap", "force_residual", "gain", "min_gap", "seconds", "rigidity_margin"):

@@ -40,7 +40,7 @@ def _curve(curve: Any, law: str) -> tuple[str, Any]:
     return law, rows.reshape(-1)
 
 
-def _volume(container: int, cell: Array) -> float:
+def volume_of(container: int, cell: Array) -> float:
     """Of the container in this cell, as the library has it. No system has no sphere: here is a small one in the middle."""
     dim, size = len(cell), 1e-3 * float(np.abs(np.diag(cell)).min())
     made, info = option_struct("jam_create_options", {"dim": dim, "container": container}), new_report("jam_info")
@@ -112,7 +112,7 @@ def sizes(
     if volume is not None and not volume > 0:
         raise ValueError(f"cell has the volume {volume:g}: its vectors are left-handed, or lie in one plane")
     if container not in (None, "brick") and vectors is not None:
-        volume = _volume(enclosure_of(container, None, dim)[0], vectors)
+        volume = volume_of(enclosure_of(container, None, dim)[0], vectors)
     if fraction is not None and volume is None:
         raise TypeError("a density needs cell or box")
     if n is None and fraction is None:

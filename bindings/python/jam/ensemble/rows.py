@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
-import math
 import re
 import warnings
 from dataclasses import dataclass, fields
@@ -20,7 +19,9 @@ import numpy as np
 from .. import store
 from .._api.arrays import Array
 from .._api.generated import CrunchReport
+from .._api.given import enclosure_of
 from .._api.results import Contacts
+from .._api.size_laws import size_report, volume_of
 from .._formats.records import enum_of, fill, of_report
 from .._formats.replacing import replacing
 from .._formats.seal import SCHEMA, Packing, read_packing, refusing, seal
@@ -53,8 +54,8 @@ def row_of(packing: Packing) -> Array:
     sigma, cell = arrays["jam/diameters"], arrays["particles/spheres/box/edges/value"][0]
     made["n"], made["dim"], dim = len(sigma), len(cell), len(cell)
     if "jam/report" not in arrays:
-        ball = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) / 2**dim
-        made["packing_fraction"] = ball * (sigma**dim).sum() / abs(np.linalg.det(cell))
+        container, _ = enclosure_of(jam.get("container"), None, dim)
+        made["packing_fraction"] = size_report(sigma, dim).volume / volume_of(container, cell)
         made["diameter_mean"] = sigma.mean()
     score = arrays.get("jam/analysis/crystal_score")
     made["crystal_score"] = np.nan if score is None or score.dtype.kind != "f" else score[()]

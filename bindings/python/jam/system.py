@@ -229,9 +229,8 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
             As of `from_arrays`.
         """
         notes: list[str] = []
-        named = {key: options.pop(key, None) for key in frames.NAMED}
-        given = frames.of_atoms(atoms, diameters, radii=radii, dim=dim, notes=notes, where="atoms", named=named)
-        return cls._noted(dict(given, **options), notes)
+        given = frames.of_atoms(atoms, diameters, options, radii=radii, dim=dim, notes=notes, where="atoms")
+        return cls._noted(given, notes)
 
     @classmethod
     def _noted(cls, arguments: dict[str, Any], notes: list[str]) -> "System":

@@ -10,7 +10,7 @@ import numpy as np
 from .._api.arrays import Array
 from .._api.errors import make
 from .._api.generated import StatusCode
-from .._api.given import ROUNDING, closed_axes, enclosure_of, sizes_of
+from .._api.given import ROUNDING, closed_axes, enclosure_of, refuse_start_options, sizes_of
 from .replacing import open_regular
 
 # A plane may be uneven by this part of its cell: distances in it change by less than their rounding.
@@ -25,9 +25,7 @@ def bad(path: str, text: str) -> Exception:
 def readable(path: str | os.PathLike[str], options: dict[str, Any]) -> str:
     """The name of a file that can be read, without options that it gives itself."""
     name = os.fsdecode(path)
-    for option in ("box", "cell", "dim"):
-        if options.get(option) is not None:
-            raise TypeError(f"{option}={options[option]!r} would be without effect: {name} gives it")
+    refuse_start_options(options, ("box", "cell", "dim"), f"{name} gives it")
     open_regular(name).close()
     return name
 
@@ -104,9 +102,6 @@ def agreed(path: str, found: dict[str, Array], tolerance: float) -> Array:
 
 
 # ---- what ASE reads: CIF, POSCAR and more
-# What info may hold, as to_ase writes it; else the caller names it.
-NAMED = ("walls", "container", "non_additivity")
-
 # What other programs call the sizes of spheres, as factors to the diameter.
 _SIZES = {"radius": 2.0, "radii": 2.0, "diameter": 1.0, "diameters": 1.0}
 
@@ -127,8 +122,7 @@ def of_ase(
     kind = ase.io.formats.filetype(name)
     frames = ase.io.read(name, index=":", format=kind)
     at, notes = chosen(name, frame, len(frames))
-    named = {key: options.pop(key, None) for key in NAMED}
-    given = of_atoms(frames[at], diameters, radii=radii, dim=dim, notes=notes, where=name, named=named)
+    given = of_atoms(frames[at], diameters, options, radii=radii, dim=dim, notes=notes, where=name)
     if kind in _SORTED and given["diameters"].size > 1 and not (diameters is None and radii is None):
         as_written = ase.io.read(name, index=at, format=kind, **_SORTED[kind])
         if not np.array_equal(as_written.positions, frames[at].positions):
@@ -137,18 +131,18 @@ def of_ase(
                 "ASE sorts these atoms by id, but the file has another order, so it is unclear which atom has which "
                 "diameter: System.read takes the radii from a column of the file; or sort the file by id",
             )
-    return dict(given, **options), notes
+    return given, notes
 
 
 def of_atoms(
-    atoms: Any, diameters: Any, *, radii: Any, dim: int, notes: list[str], where: str, named: dict[str, Any]
+    atoms: Any, diameters: Any, options: dict[str, Any], *, radii: Any, dim: int, notes: list[str], where: str
 ) -> dict[str, Any]:
-    """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read. named:
-    of NAMED what the caller names, for atoms that do not."""
+    """What System.from_arrays takes for an ase.Atoms. where: what an error calls it; notes get what was not read. options: of
+    the caller, who names walls, container and non_additivity where info does not, as to_ase writes it."""
     if len(atoms) == 0:
         raise bad(where, "the atoms have no sphere")
-    named = {key: value for key, value in named.items() if value is not None}
-    mixed, ours = atoms.info.get("non_additivity"), named.pop("non_additivity", None)
+    named = {key: value for key in ("walls", "container") if (value := options.pop(key, None)) is not None}
+    mixed, ours = atoms.info.get("non_additivity"), options.pop("non_additivity", None)
     if mixed is not None and ours is not None and float(mixed) != float(ours):
         raise bad(where, f"non_additivity= is {ours}, that of info is {mixed}: leave it out")
     delta = {} if ours is mixed is None else {"non_additivity": float(ours if mixed is None else mixed)}
@@ -175,7 +169,7 @@ def of_atoms(
         notes.append("constraints of the file were not read")
     corner = np.asarray(atoms.get_celldisp()).reshape(-1)
     scene = placed(where, np.asarray(atoms.positions), np.asarray(atoms.cell), corner, dim, notes)
-    return dict(scene, diameters=sizes, **walls, **delta)
+    return dict(scene, diameters=sizes, **walls, **delta, **options)
 
 
 def _walls_in(path: str, atoms: Any, dim: int, named: dict[str, Any]) -> dict[str, Any]:

@@ -29,10 +29,8 @@ def write(path: str | os.PathLike[str], system: Any) -> None:
         raise ValueError(f"GSD has two or three dimensions, this packing has d = {len(cell)}")
     frame = gsd.hoomd.Snapshot()
     frame.configuration.dimensions = len(cell)
-    frame.configuration.box = _box(cell)
     frame.particles.N = len(diameters)
-    frame.particles.position = _centred(positions, cell)
-    frame.particles.diameter = diameters
+    frame.configuration.box, frame.particles.position, frame.particles.diameter = _schema(positions, diameters, cell).values()
     frame.log = {name: np.array(value) for name, value in zip(_KEPT, (positions, diameters, cell))}
     with replacing(path) as part, gsd.hoomd.open(part.name, "wb") as file:
         file.append(frame)
@@ -75,23 +73,18 @@ def arguments(
     return dict(made, diameters=sizes, **options), notes
 
 
-def _box(cell: Array) -> Array:
-    """Lx, Ly, Lz and the tilt factors of lower-triangular vectors."""
+def _schema(x: Array, diameters: Array, cell: Array) -> dict[str, Array]:
+    """What HOOMD's schema keeps of a packing: Lx, Ly, Lz and the tilt factors of lower-triangular vectors, positions in the cell
+    around the origin with z = 0 in d = 2, and diameters."""
     d = len(cell)
-    box = np.zeros(6)
+    box, centred = np.zeros(6), np.zeros((len(x), 3))
     box[:d] = np.diag(cell)
     box[3] = cell[1, 0] / cell[1, 1]
     if d == 3:
         box[4:] = cell[2, 0] / cell[2, 2], cell[2, 1] / cell[2, 2]
-    return box
-
-
-def _centred(x: Array, cell: Array) -> Array:
-    """In the cell around the origin, as HOOMD wants them, with z = 0 in d = 2."""
     s = np.linalg.solve(cell.T, np.asarray(x).T).T - 0.5
-    found = np.zeros((len(x), 3))
-    found[:, : len(cell)] = (s - np.floor(s + 0.5)) @ cell
-    return found
+    centred[:, :d] = (s - np.floor(s + 0.5)) @ cell
+    return {"configuration/box": box, "particles/position": centred, _DIAMETER: diameters}
 
 
 class _Frame:
@@ -133,37 +126,24 @@ class _Frame:
         if not all(self.file.chunk_exists(frame=self.at, name="log/" + name) for name in _KEPT):
             return None
         kept = [np.asarray(self.one.log[name]) for name in _KEPT]
-        if wrong := self.difference(*kept):
+        wrong = ["the number of spheres or dimensions"]
+        if [value.shape for value in kept] == [(self.n, self.dim), (self.n,), (self.dim, self.dim)]:
+            found = self.one.configuration.box, self.one.particles.position, self.one.particles.diameter
+            both = zip(_schema(*kept).items(), found)
+            wrong = [name for (name, value), there in both if not np.array_equal(value.astype(np.float32), there)]
+        if wrong:
             raise bad(
                 self.path,
-                f"{wrong} of frame {self.at} does not agree with the copy of libjam in log/jam: another program changed the "
+                f"{wrong[0]} of frame {self.at} does not agree with the copy of libjam in log/jam: another program changed the "
                 "frame. doubles=False reads the frame alone",
             )
         return kept
 
-    def difference(self, positions: Array, diameters: Array, cell: Array) -> str:
-        d, n, one = self.dim, self.n, self.one
-        if positions.shape != (n, d) or diameters.shape != (n,) or cell.shape != (d, d):
-            return "the number of spheres or dimensions"
-        sides = slice(6 if d == 3 else 2)
-        for name, kept, found in (
-            ("configuration/box", _box(cell)[sides], one.configuration.box[sides]),
-            ("particles/position", _centred(positions, cell), one.particles.position),
-            (_DIAMETER, diameters, one.particles.diameter),
-        ):
-            if not np.array_equal(kept.astype(np.float32), found):
-                return name
-        return ""
-
     def diameters(self) -> tuple[Array, set[str]]:
         """Diameters (n,) from each place of the schema that names some, and the chunks that were read for them."""
-        found: dict[str, Array] = {}
-        if self.has(_DIAMETER):
-            found[_DIAMETER] = np.asarray(self.one.particles.diameter, float)
+        found = {_DIAMETER: np.asarray(self.one.particles.diameter, float)} if self.has(_DIAMETER) else {}
         kinds = np.asarray(self.one.particles.typeid, int)
-        for name, values in ((_SHAPES, self.of_shapes()), (_RADII, self.of_state())):
-            if values is None:
-                continue
+        for name, values in self.of_types().items():
             if kinds.min() < 0 or kinds.max() >= len(values):
                 raise bad(self.path, f"{name} has {len(values)} types, and particles/typeid reaches {kinds.max()}")
             found[name] = values[kinds]
@@ -176,24 +156,20 @@ class _Frame:
         by_type = () if [*found] == [_DIAMETER] else ("particles/typeid", "particles/types")
         return agreed(self.path, found, 1e-6), {*found, *by_type}
 
-    def of_shapes(self) -> Array | None:
-        """Diameters a type from the shapes of HOOMD; None where no type has a shape."""
-        shapes = list(self.one.particles.type_shapes) if self.has(_SHAPES) else []
-        if not any(shapes):
-            return None
-        for k, shape in enumerate(shapes):
-            if shape.get("type") not in ("Sphere", "Disk") or "diameter" not in shape:
-                raise bad(self.path, f"{_SHAPES}: type {k} is {shape}, and no sphere with a diameter: give diameters=")
-        return np.array([float(shape["diameter"]) for shape in shapes])
-
-    def of_state(self) -> Array | None:
-        """Diameters a type from the state of an HPMC integrator of spheres."""
+    def of_types(self) -> dict[str, Array]:
+        """Diameters a type: from the shapes of HOOMD where a type has one, and from the state of an HPMC integrator of spheres."""
+        found: dict[str, Array] = {}
+        shapes = self.one.particles.type_shapes
+        if any(shapes):
+            for k, shape in enumerate(shapes):
+                if shape.get("type") not in ("Sphere", "Disk") or "diameter" not in shape:
+                    raise bad(self.path, f"{_SHAPES}: type {k} is {shape}, and no sphere with a diameter: give diameters=")
+            found[_SHAPES] = np.array([float(shape["diameter"]) for shape in shapes])
         prefix = "state/hpmc/"
         names = self.file.find_matching_chunk_names(prefix)
-        shapes = {name[len(prefix) :].split("/")[0] for name in names if name.count("/") > 2} - {"integrate"}
-        if shapes - {"sphere"}:
-            raise bad(self.path, f"{prefix}: the shapes are {', '.join(sorted(shapes))}, libjam takes spheres: give diameters=")
-        if not self.has(_RADII):
-            return None
-        own = self.file.chunk_exists(frame=self.at, name=_RADII)
-        return 2.0 * np.asarray(self.file.read_chunk(frame=self.at if own else 0, name=_RADII), float).reshape(-1)
+        kinds = {name[len(prefix) :].split("/")[0] for name in names if name.count("/") > 2} - {"integrate"}
+        if kinds - {"sphere"}:
+            raise bad(self.path, f"{prefix}: the shapes are {', '.join(sorted(kinds))}, libjam takes spheres: give diameters=")
+        for k in (k for k in (0, self.at) if self.file.chunk_exists(frame=k, name=_RADII)):
+            found[_RADII] = 2.0 * np.asarray(self.file.read_chunk(frame=k, name=_RADII), float).reshape(-1)
+        return found

@@ -59,20 +59,16 @@ _MEANING = {
 }
 
 
-def _members(cls: type) -> list[tuple[IntEnum, str]]:
-    """Members of an enum with the meaning that stands beside each in the source."""
+@functools.lru_cache(maxsize=None)
+def _words(cls: Any) -> str:
+    """Number and name of each member of an enum, with the meaning that stands beside it in the source."""
     try:  # not by inspect: Python 3.11 cannot parse on two threads at once
         source = Path(generated.__file__).read_text("utf-8")
     except OSError:  # installed without sources
         source = ""
     own = re.search(rf"^class {cls.__name__}\(.*?(?=^\S|\Z)", source, flags=re.M | re.S)
     found = dict(re.findall(r"^    (\w+) = -?\d+  # (.*)$", own[0] if own else "", flags=re.M))
-    members: Any = cls
-    return [(m, found.get(m.name, "")) for m in members]
-
-
-def _words(cls: type) -> str:
-    return "; ".join(f"{int(m)} {m.name.lower()}" + (f": {text}" if text else "") for m, text in _members(cls))
+    return "; ".join(f"{int(m)} {m.name.lower()}: {found.get(m.name, '')}".removesuffix(": ") for m in cls)
 
 
 @functools.lru_cache(maxsize=None)
@@ -87,20 +83,14 @@ def of_report(cls: type) -> tuple[np.dtype[Any], dict[str, str]]:
     return np.dtype([(f.name, kinds[str(f.type)]) for f in fields(cls)]), text
 
 
-@functools.lru_cache(maxsize=None)
-def explanation(path: str) -> dict[str, str]:
-    """Attributes of an array, where its name is known."""
-    found = {key: text for key, text in zip(("unit", "description"), _MEANING.get(path, ())) if text}
-    if path == "jam/history":
-        columns = "; ".join(f"{m.name.lower()}: {text}" for m, text in _members(HistoryColumn))
-        found.update(fields=columns, phase=_words(StepPhase))
-    return found
-
-
 _BY_MEMBERS = {tuple(f.name for f in fields(report)): report for report in generated.REPORTS.values()}
 
 
 def described(path: str, kind: np.dtype[Any]) -> tuple[np.dtype[Any], dict[str, str]]:
     """The type and the attributes of an array in a file: those of a report, which is known by its members, or of its name."""
-    report = _BY_MEMBERS.get(kind.names or ())
-    return of_report(report) if report else (kind, explanation(path))
+    if report := _BY_MEMBERS.get(kind.names or ()):
+        return of_report(report)
+    found = {key: text for key, text in zip(("unit", "description"), _MEANING.get(path, ())) if text}
+    if path == "jam/history":
+        found.update(fields=_words(HistoryColumn), phase=_words(StepPhase))
+    return kind, found

@@ -35,7 +35,7 @@ USER_BLOCK = 512
 INDEX = "seal"
 BEGIN = b"jam packing file"
 _MOST_ARRAYS, _DEEPEST = 4096, 12  # of a packing: bounds what a crafted index can ask for
-_KIND = re.compile(r"[<>|][biufcS][0-9]{1,9}")
+_KIND = re.compile(r"[<>|][biufcS][1-9][0-9]{0,8}")
 _CHUNK = 1 << 20
 SCHEMA = 1
 _LARGEST_INDEX = 1 << 22  # bytes; 1000 packings of a shard take 0.1 MB
@@ -78,11 +78,8 @@ def type_of(text: Any) -> np.dtype[Any]:
     for _, kind in fields:
         if not _KIND.fullmatch(kind):
             raise ValueError(f"{kind!r} is not a type of numbers or text")
-    described: Any = text if isinstance(text, str) else fields
-    made: np.dtype[Any] = np.dtype(described)
-    if made.itemsize == 0:
-        raise ValueError(f"{text!r} has no bytes")
-    return made
+    made: Any = text if isinstance(text, str) else fields
+    return np.dtype(made)
 
 
 def size_of(shape: Sequence[int], kind: np.dtype[Any]) -> int:
@@ -115,13 +112,10 @@ def seal(file: IO[bytes], content: Packing | Iterable[tuple[str, Packing]], **at
     with h5py.File(file, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:  # every HDF5 reads it
         inside.attrs.update(attributes)
         if isinstance(content, Packing):
-            place = _put(inside, _write(content, inside))
+            place = _write(content, inside)
         else:
-            parts = {}
-            for name, packing in content:
-                group = inside.create_group(name)
-                parts[name] = _put(group, _write(packing, group))
-            place = _put(inside, {"packings": parts})
+            places = {name: _write(packing, inside.create_group(name)) for name, packing in content}
+            place = _put(inside, {"packings": places})
     length, whole = file.seek(0, 2), digest_of_rest(file)
     file.seek(0)
     file.write(head_of(length, place, whole))
@@ -134,8 +128,8 @@ def _put(group: Any, index: dict[str, Any]) -> list[Any]:
     return [int(node.id.get_offset()), len(text), digest(text)]
 
 
-def _write(packing: Packing, group: Any) -> dict[str, Any]:
-    """A packing into a group; returns its index. By the low calls of h5py: the high ones take twice as long for all of it."""
+def _write(packing: Packing, group: Any) -> list[Any]:
+    """A packing with its index into a group; returns what _put() does. By the low calls of h5py: the high ones take twice as long for all of it."""
     check_names(packing.arrays)
     data, above = {}, h5py.h5p.create(h5py.h5p.LINK_CREATE)
     above.set_create_intermediate_group(True)
@@ -153,7 +147,7 @@ def _write(packing: Packing, group: Any) -> dict[str, Any]:
         group[SAME[path]] = group[path]
     for path, attributes in packing.attributes.items():
         _describe(group.require_group(path).id, attributes)
-    return {"data": data, "attributes": packing.attributes}
+    return _put(group, {"data": data, "attributes": packing.attributes})
 
 
 def _describe(node: Any, attributes: dict[str, Any]) -> None:
@@ -264,9 +258,7 @@ def read_packing(
             many = f"is a shard of {len(file.places)} packings: name one, e.g. name={next(iter(file.places), '')!r}"
             raise StoreError(22, f"{path} {many}" if name is None else f"{path} holds no packing {name!r}")
         found = file.packing(name)
-        schema = found.attributes.get("jam", {}).get("schema")
-        if schema is None:
-            raise StoreError(22, f"{path} contains no packing of jam (no group `jam`)")
-        if int(schema) > SCHEMA:
+        schema = int(found.attributes["jam"]["schema"])
+        if schema > SCHEMA:
             raise StoreError(22, f"{path}: schema {schema} is newer than the schema {SCHEMA} of this jam")
         return found

@@ -6,14 +6,13 @@ import os
 import random
 import time
 from concurrent.futures import BrokenExecutor, Executor, Future, as_completed
-from contextlib import ExitStack, nullcontext, suppress
+from contextlib import nullcontext, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
-from .._formats.replacing import remove_abandoned
 from .._formats.write_packing import image, write_shard
 from ..errors import StoreError
 from .folder import Content, Folder
@@ -29,11 +28,10 @@ def make_packing(folder: str, protocol: str, seed: int, remake_damaged: bool) ->
     files, chosen = Folder(folder), json.loads(protocol)
     protocol_id = identity(chosen)
     name = packing_name(protocol_id, seed)
-    try:
-        path, there = files.free(name, remake_damaged)  # somebody else may have made it since
-    except StoreError:
-        return "damaged"
-    if not there:
+    path, there = files.place(name)  # somebody else may have made it since
+    if there == "damaged" and not remake_damaged:
+        return there
+    if there != "done":
         start, cpu = time.monotonic(), time.process_time()
         try:
             system, results = make(chosen, seed)
@@ -57,15 +55,14 @@ def lasts(failure: Mapping[str, Any]) -> bool:
     return status.startswith("e_") and status not in ("e_memory", "e_io", "e_busy")
 
 
-def progress_bar(wanted: bool, total: int, done: int) -> Any:
-    """A bar by tqdm as a context, or a context of None where none is wanted or tqdm is missing."""
-    if wanted:
-        with suppress(ImportError):
-            from tqdm import tqdm
+def with_bar(answers: Iterable[Any], total: int, done: int) -> Iterable[Any]:
+    """The same answers, behind a bar of tqdm on a terminal where tqdm is there."""
+    with suppress(ImportError):
+        from tqdm import tqdm
 
-            make_bar: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
-            return make_bar(total=total, initial=done, unit="packing", disable=None)
-    return nullcontext()
+        make_bar: Any = tqdm  # stubs of tqdm that some machines have do not know disable=None: no bar where no terminal is
+        answers = make_bar(answers, total=total, initial=done, unit="packing", disable=None)
+    return answers
 
 
 def readable(files: Folder, protocol: str | None = None) -> list[Entry]:
@@ -149,38 +146,34 @@ class Ensemble:
         self.files.keep_protocol(self.id, to_json(self.protocol))
         names = {s: self.name(s) for s in seeds}
         asked = None if search else names.values()
-        content, failures = self.files.content(asked), self.files.failures(names.values())
-        there = {e.row["name"] for e in content.entries}
-        broken = {s for s in seeds if self.files.packing(names[s]) in content.damaged}
-        left = [s for s in seeds if names[s].encode() not in there and (remake_damaged or s not in broken)]
-        todo = [s for s in left if retry or names[s] not in failures or not lasts(failures[names[s]])]
+        before, failures = self.files.content(asked), self.files.failures(names.values())
+        settled = {e.row["name"].decode() for e in before.entries}
+        settled.update(name for name, failure in failures.items() if lasts(failure) and not retry)
+        todo = [s for s in seeds if names[s] not in settled]
         random.shuffle(todo)  # two campaigns with the same seeds then share the work
-        with ExitStack() as stack:
-            if executor is None:
-                stack.callback(remove_abandoned, self.files.parts)  # a worker may have been killed while it wrote
-                executor = stack.enter_context(LocalPool(workers))
-            bar = stack.enter_context(progress_bar(progress, len(seeds), len(seeds) - len(todo)))
-            made = self._make(todo, executor, bar, remake_damaged)
+        context: Any = LocalPool(workers) if executor is None else nullcontext(executor)  # the caller's stays open
+        with context as pool:
+            made = self._make(todo, pool, len(seeds) if progress else 0, remake_damaged)
         content = self.files.content(asked)
-        remade = [p for p in (self.files.packing(names[s]) for s in sorted(broken & set(todo))) if p not in content.damaged]
+        remade = [p for p in map(self.files.packing, names.values()) if p in before.damaged and p not in content.damaged]
         return replace(self._status(content, seeds), made=made, remade=tuple(map(str, remade)))
 
-    def _make(self, seeds: list[int], pool: Executor, bar: Any, remake_damaged: bool) -> int:
-        """Hands one call a seed to the executor and takes the answers; returns how many packings were made."""
+    def _make(self, seeds: list[int], pool: Executor, asked: int, remake_damaged: bool) -> int:
+        """Hands one call a seed to the executor and takes the answers; returns how many packings were made. A bar shows how many
+        are there of those asked for; 0: none."""
         folder, text, made = os.fspath(self.files.path.resolve()), to_json(self.protocol), 0
         seed_of: dict[Future[str], int] = {}
         try:
             for seed in seeds:
                 seed_of[pool.submit(make_packing, folder, text, seed, remake_damaged)] = seed
-            for future in as_completed(seed_of):
+            answers = as_completed(seed_of)
+            for future in with_bar(answers, asked, asked - len(seeds)) if asked else answers:
                 try:
                     made += future.result() == "done"
                 except (StoreError, BrokenExecutor, ImportError):
                     raise  # nothing more can be written or run, or the workers have no jam
                 except Exception as error:  # the worker is lost, not the packing
                     self.files.write_failure(self.id, seed_of[future], "worker_lost", f"{type(error).__name__}: {error}")
-                if bar is not None:
-                    bar.update()
         finally:
             for future in seed_of:
                 future.cancel()

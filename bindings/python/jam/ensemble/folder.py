@@ -17,10 +17,8 @@ import json
 import os
 import time
 import warnings
-from collections import Counter
 from contextlib import suppress
 from functools import partial
-from itertools import count
 from pathlib import Path
 from random import SystemRandom
 from tempfile import TemporaryFile
@@ -67,21 +65,18 @@ class Folder:
     def failure(self, name: str) -> Path:
         return self.packing(name).with_suffix(".json")
 
-    def free(self, name: str, remake_damaged: bool) -> tuple[Path, bool]:
-        """Where a packing lies or may be written, and whether it is there: beside its own place, where a file of another one
-        has that. A damaged file there is an error, or may be replaced."""
-        for k in count(1):
-            path = self.packing(name if k == 1 else f"{name}-{k}")
-            if not path.exists():
-                break
+    def place(self, name: str) -> tuple[Path, str]:
+        """Where a packing lies or may be written, and what is there: "done", "damaged" or "". That is beside its own place, where a
+        file of another one has that."""
+        beside = 1
+        while (path := self.packing(name if beside == 1 else f"{name}-{beside}")).exists():
             try:
                 if self.row(path, None)["name"] == name.encode():
-                    return path, True
+                    return path, "done"
             except StoreError:
-                if not remake_damaged:
-                    raise
-                break
-        return path, False
+                return path, "damaged"
+            beside += 1
+        return path, ""
 
     def prepare(self) -> None:
         """Makes the folders and looks whether they can be written; removes what killed writers left."""
@@ -207,8 +202,8 @@ def _counted(entries: list[Entry], damaged: dict[Path, str]) -> Content:
         return name_at(*e._place) != e.row["name"].decode()
 
     kept: dict[tuple[int, bytes], Entry] = {}
-    doubles: dict[Path, str] = {}
-    odd, more = {}, Counter[Path]()
+    doubles: dict[Path, list[str]] = {}
+    odd: dict[Path, str] = {}
     mine = ALGORITHM.encode()
     for e in sorted(entries, key=lambda e: (claim(e), e.row["algorithm"] != mine, renamed(e), e.row["written"], str(e.path))):
         first = kept.setdefault(claim(e), e)
@@ -216,13 +211,12 @@ def _counted(entries: list[Entry], damaged: dict[Path, str]) -> Content:
         if first is not e:
             ours, theirs = (f"{build_of(row)} (algorithm {row['algorithm'].decode()})" for row in (e.row, first.row))
             builds = "" if ours == theirs else f"; made by {ours} and by {theirs}"
-            doubles.setdefault(e.path, f"{e.path} holds {what}, as {first.path} does, which counts{builds}")
-            more[e.path] += 1
+            doubles.setdefault(e.path, []).append(f"{e.path} holds {what}, as {first.path} does, which counts{builds}")
         elif renamed(e) and e._place[1] is None:
             odd[e.path] = f"{e.path} has another name than {what}, which it holds"
-    for path in (path for path in doubles if more[path] > 1):
-        doubles[path] += f"; and {more[path] - 1} more, which other files hold too"
-    return Content([*kept.values()], damaged, doubles, odd)
+    more = "{}; and {} more, which other files hold too"
+    named = {path: more.format(texts[0], len(texts) - 1) if texts[1:] else texts[0] for path, texts in doubles.items()}
+    return Content([*kept.values()], damaged, named, odd)
 
 
 def _protocol(path: Path, name: str, text: str | None = None) -> dict[str, Any]:

@@ -17,6 +17,7 @@ import subprocess
 import sys
 import threading
 from concurrent.futures import Future, ThreadPoolExecutor
+from contextlib import suppress
 from multiprocessing.connection import Connection, Pipe
 from pathlib import Path
 from typing import Any, Callable
@@ -105,11 +106,9 @@ def main(descriptor: int) -> None:
     """A worker: reads calls from a socket and writes answers, until it closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C goes to all processes of a terminal: the campaign decides
     connection = Connection(descriptor)
-    try:
+    with suppress(EOFError, OSError):  # the campaign is gone: nobody reads this answer
         while True:
             connection.send_bytes(_answer(*connection.recv()))
-    except (EOFError, OSError):
-        return  # the campaign is gone: nobody reads this answer
 
 
 def _answer(folders: list[str], call: bytes) -> bytes:

@@ -2,12 +2,12 @@
 and what there is in numbers, with the warning of what cannot be read.
 
 index.bin has the rows, to save time. It may be anybody's: it is a sealed file as those of packings, and a row counts only for a
-file with the place, size and time of change that its digest names. Some are compared with their files (folder.py).
+file with the place, size and time of change that its key names. Some are compared with their files (folder.py).
 """
 from __future__ import annotations
 
 import contextlib
-import hashlib
+import os
 import re
 import warnings
 from dataclasses import dataclass, fields
@@ -84,7 +84,7 @@ def as_table(entries: Iterable[Any], pandas: bool) -> Any:
 
 
 def name_at(path: Path, inner: str | None) -> str:
-    """The packing that a file is named after, as Folder.free() does; none of one in a shard, and of any other name."""
+    """The packing that a file is named after, as Folder.place() does; none of one in a shard, and of any other name."""
     found = re.fullmatch("([0-9a-f]{32})(-.*)?", path.stem)
     return found[1] if found and inner is None and path.parent.name == found[1][:2] else ""
 
@@ -228,28 +228,21 @@ class Status:
 def key_of(path: Path, inner: str | None) -> bytes:
     """What the index calls a packing, of a file as it is now."""
     stat = path.stat()
-    text = f"{path.parent.name}/{path.name}:{inner or ''} {stat.st_size} {stat.st_mtime_ns}"
-    return hashlib.sha256(text.encode(errors="surrogateescape")).hexdigest().encode()
-
-
-def _unknown() -> Array:
-    """A row of which nothing is known."""
-    fill(made := np.zeros((), ROW))
-    return made
+    return os.fsencode(f"{path.parent.name}/{path.name}:{inner or ''} {stat.st_size} {stat.st_mtime_ns}")
 
 
 def read_index(path: Path) -> dict[bytes, bytes]:
     """Rows by key; none where it is not the index that was written, or has rows of another kind."""
     with contextlib.suppress(StoreError), refusing(path):
         found = read_packing(path).arrays
-        if found["rows"].dtype == ROW and found["unknown"].tobytes() == _unknown().tobytes():
+        if found["rows"].dtype == ROW:
             return dict(zip(found["keys"].tolist(), (row.tobytes() for row in found["rows"].reshape(-1))))
     return {}
 
 
 def write_index(path: Path, rows: Mapping[bytes, bytes]) -> None:
     """Nothing is lost where that cannot be."""
-    arrays = {"keys": np.array([*rows], "S64"), "rows": np.frombuffer(b"".join(rows.values()), ROW), "unknown": _unknown()}
+    arrays = {"keys": np.array([*rows], "S"), "rows": np.frombuffer(b"".join(rows.values()), ROW)}
     with contextlib.suppress(OSError):
         if path.is_symlink():  # somebody's: what it leads to is not replaced
             path.unlink()

@@ -87,12 +87,9 @@ def _show(found: Search, rows: list[dict[str, Any]]) -> None:
         print(f"{row['rank']:3d}  {row['value']}  start {row['start']}  {row['file']}{said}")
 
 
+@printed
 def main(arguments: list[str] | None = None) -> int:
     """Returns the exit status."""
-    return printed(lambda: _answer(arguments))
-
-
-def _answer(arguments: list[str] | None) -> int:
     p = parser()
     o = p.parse(arguments)
     if o.starts is None and o.seconds is None and o.until is None:

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import argparse
+import functools
 import json
 import os
 import sys
@@ -64,15 +65,21 @@ def _keep_standard_streams() -> None:
         sys.stderr = open(_nowhere(os.O_RDWR), "w")
 
 
-def printed(answer: Callable[[], int]) -> int:
-    """The exit status of `answer`, of which print alone raises OSError: what cannot be printed is an output that cannot be written."""
-    _keep_standard_streams()
-    try:
+def printed(answer: Callable[[list[str] | None], int]) -> Callable[[list[str] | None], int]:
+    """Decorates what answers a command line with an exit status, and of which print alone raises OSError: what cannot be printed
+    is an output that cannot be written."""
+
+    @functools.wraps(answer)
+    def told(arguments: list[str] | None = None) -> int:
+        _keep_standard_streams()
         try:
-            return answer()
-        finally:
-            sys.stdout.flush()
-    except OSError as error:
-        print(f"jam: cannot write standard output: {error.strerror}", file=sys.stderr)
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes it once more at its end
-        return OUTPUT
+            try:
+                return answer(arguments)
+            finally:
+                sys.stdout.flush()
+        except OSError as error:
+            print(f"jam: cannot write standard output: {error.strerror}", file=sys.stderr)
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes it once more at its end
+            return OUTPUT
+
+    return told

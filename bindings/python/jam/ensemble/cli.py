@@ -94,13 +94,9 @@ def _run(o: argparse.Namespace) -> Status:
     return status
 
 
+@printed
 def main(arguments: list[str] | None = None) -> int:
-    """Returns the exit status."""
-    return printed(lambda: _answer(arguments))
-
-
-def _answer(arguments: list[str] | None) -> int:
-    """Exit status of a command line. The only OSError that leaves it is that of print."""
+    """Returns the exit status. The only OSError that leaves it is that of print."""
     p = parser()
     o = p.parse(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):

@@ -6,7 +6,7 @@ import os
 
 from ._api.shown import only
 from ._formats.seal import damaged, read_packing, refusing
-from ._formats.write_packing import CONTACTS, image, provenance, save, write_shard
+from ._formats.write_packing import image, provenance, save, write_shard
 from .errors import JamError, StoreError
 from .system import System, restore
 
@@ -48,7 +48,7 @@ def load(
             made = restore(stored["jam/state"].tobytes(), calls, [])
             same = {"particles/spheres/position/value": made.positions[None], "jam/diameters": made.diameters}
             if "jam/contacts/pairs" in stored:
-                same.update({"jam/contacts/" + part: getattr(made.contacts, part) for part in CONTACTS})
+                same.update({"jam/contacts/" + part: value for part, value in vars(made.contacts).items()})
         except JamError as error:
             if isinstance(error, MemoryError):
                 raise

@@ -74,12 +74,7 @@ def placed(path: str, x: Array, cell: Array, corner: Array, dim: int, notes: lis
         at = np.linalg.solve(cell.T, x.T)
         if outside := int(((at < -ROUNDING) | (at > 1.0 + ROUNDING)).any(0).sum()):
             notes.append(f"{outside} of {len(x)} spheres lay outside the cell and were wrapped into it")
-    return dict(positions=x, **box_of(cell), dim=dim)
-
-
-def box_of(cell: Array) -> dict[str, Any]:
-    cube = (cell == cell[0, 0] * np.eye(len(cell))).all()
-    return {"box": float(cell[0, 0])} if cube else {"cell": cell}
+    return dict(positions=x, cell=cell, dim=dim)
 
 
 def say_unread(notes: list[str], kind: str, names: Iterable[str]) -> None:

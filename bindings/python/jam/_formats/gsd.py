@@ -8,7 +8,7 @@ import numpy as np
 
 from .._api.arrays import Array
 from .._api.given import refuse_unstored, sizes_of
-from .frames import agreed, bad, box_of, chosen, placed, readable, say_unread
+from .frames import agreed, bad, chosen, placed, readable, say_unread
 from .replacing import replacing
 
 # Positions are float32 in GSD's schema, which opens and closes gaps of 1e-7. The doubles are kept beside them.
@@ -60,7 +60,7 @@ def arguments(
         if kept is None:
             made, read = found.placed(notes), _READ
         else:
-            made = {"positions": kept[0], **box_of(kept[2]), "dim": found.dim}
+            made = {"positions": kept[0], "cell": kept[2], "dim": found.dim}
             read = {*_READ, _DIAMETER, *(f"log/{name}" for name in _KEPT)}
         if diameters is not None or radii is not None:
             sizes = sizes_of(diameters, radii, found.n)

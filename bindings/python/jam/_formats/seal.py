@@ -215,7 +215,7 @@ class _File:
     def index(self, place: Sequence[Any]) -> dict[str, Any]:
         if not 0 < place[1] <= _LARGEST_INDEX:
             raise ValueError(f"an index of {place[1]} bytes")
-        text = bytes(self.read("the index", *place))
+        text = self.read("the index", *place)
         return json.loads(text, parse_int=lambda digits: int(digits[:20]))  # no place or size has more
 
     def packing(self, name: str | None) -> Packing:

@@ -42,7 +42,6 @@ from .seal import SCHEMA, Packing, read_packing, seal
 #: random numbers or path of the dynamics, another default of an option, a crunch that ends elsewhere as a rule. It stays
 #: where a build, a processor or a mended fault changes the last digits, or few packings. Files tell the builds apart.
 ALGORITHM = "1.0.0"
-CONTACTS = ("pairs", "vectors", "gaps", "forces")
 
 
 def _line(path: str, word: str) -> str:
@@ -155,11 +154,10 @@ def image(
         "jam/history": known.get("history") if known.keys() & {"report", "contacts"} else None,
         "jam/calls": json.dumps(packing.calls),
         "jam/protocol": protocol,
-        **{"jam/analysis/" + name: value for name, value in (analysis or {}).items()},
+        "jam/analysis": dict(analysis or {}),
+        "jam/contacts": known.get("contacts"),
+        "jam/coordination": packing.coordination if "contacts" in known else None,
     }
-    if "contacts" in known:
-        parts["jam/coordination"] = packing.coordination
-        parts.update({"jam/contacts/" + name: getattr(known["contacts"], name) for name in CONTACTS})
     for path, value in parts.items():
         _put(made, path, value)
     memory = io.BytesIO()

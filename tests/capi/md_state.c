@@ -67,6 +67,36 @@ static uint64_t mix64(uint64_t x) {
   return x ^ (x >> 31);
 }
 
+static void seal(char *data, size_t size) {
+  uint64_t sum = 0x6a616d, word;
+  for (size_t k = 0; k < size - 8; k += 8) {
+    word = 0;
+    memcpy(&word, data + k, size - 8 - k < 8 ? size - 8 - k : 8);
+    sum = mix64(sum ^ word);
+  }
+  memcpy(data + size - 8, &sum, 8);
+}
+
+/* A stage never has a growth rate that its call refuses: below 1e-15 it would grow nothing, without end. */
+CASE(growth_rates_of_stages_are_those_of_calls) {
+  OWNED jam_system *sys = make(JAM_MODEL_EUCLID, 60);
+  jam_system *out = NULL;
+  size_t size, at = 0;
+  DEFAULTS(compress, c);
+  c.growth_rate = 0.0123, c.pressure = 1e6, c.collisions_per_particle = 20;
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+  char *data = bytes_of(sys, &size);
+  while (memcmp(data + at, &c.growth_rate, 8) != 0) assert_true(++at + 8 < size);
+  const double rates[] = {1e-15, 9e-16, 1e-300, 1001.0, -0.0123};
+  for (size_t k = 0; k < sizeof rates / sizeof *rates; ++k) {
+    memcpy(data + at, &rates[k], 8);
+    seal(data, size);
+    assert_int_equal(read_state(data, size, &out), k == 0 ? JAM_OK : JAM_E_FORMAT);
+  }
+  jam_destroy(out);
+  free(data);
+}
+
 /* Any byte of a stage may be damaged and the checksum made right again: an error or a run, never a crash or an endless
  * loop. */
 CASE(damaged_stages_are_refused) {
@@ -84,14 +114,8 @@ CASE(damaged_stages_are_refused) {
     assert_true(size > 9000);
     for (size_t at = 60 * 7 * 8 + 100; at + 8 < size; at += 211) {
       const char was = data[at];
-      uint64_t sum = 0x6a616d, word;
       data[at] ^= (char)(1u << at % 8);
-      for (size_t k = 0; k < size - 8; k += 8) {
-        word = 0;
-        memcpy(&word, data + k, size - 8 - k < 8 ? size - 8 - k : 8);
-        sum = mix64(sum ^ word);
-      }
-      memcpy(data + size - 8, &sum, 8);
+      seal(data, size);
       if (read_state(data, size, &out) < 0) {
         ++refused;
       } else {

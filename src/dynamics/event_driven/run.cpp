@@ -70,8 +70,9 @@ void EventDrivenRun::archive(Archive &a) {
     }
   if (a.reading()) {
     Archive::check(stage_.then == 0.0 || stage_.then > 1.0);
-    Archive::check(stage_.growth >= 0.0 && window_.length > 0 && window_.part >= 0 &&
-                   window_.pressures.size() < 1u << 20);
+    for (const double rate : {stage_.growth, stage_.growth_end})
+      Archive::check(rate == 0.0 || (rate >= limits::growth_rate_min && rate <= limits::growth_rate_max));
+    Archive::check(window_.length > 0 && window_.part >= 0 && window_.pressures.size() < 1u << 20);
     for (const int64_t k : {window_.length, window_.part, window_.part_goal, window_.steady, before_.collisions,
                             before_.events, cooling_.collisions, frozen_})
       Archive::check(k > -(int64_t{1} << 60) && k < int64_t{1} << 60);  // sums and differences are taken of them

@@ -199,7 +199,11 @@ double Relaxation::stable_residual() const {
 
 // Overlaps have the digits of the displacements, which the next list makes small, or in plain doubles of coordinates.
 bool Relaxation::at_rounding(double residual, double tolerance) const {
-  const double overlap = sums.overlap / static_cast<double>(sums.contacts);
+  double overlap = sums.overlap / static_cast<double>(sums.contacts);
+  if (const double stiffens = 2.0 - state.energy().alpha(); stiffens > 0.0) {  // the stiffest contact has most of it
+    const std::vector<double> all = state.contacts().overlap;
+    if (!all.empty()) overlap *= math::pow(*std::min_element(all.begin(), all.end()) / overlap, stiffens);
+  }
   const auto rounding = [&](double length) {
     return RelaxTuning::roundings * std::numeric_limits<double>::epsilon() * (1.0 + length / overlap);
   };

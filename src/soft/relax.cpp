@@ -116,7 +116,8 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     out = measure(r.state, minimiser);
     if (end != DescentEnd::balanced && end != DescentEnd::rounding) return end;
     bool near = true;
-    if (std::max(out.report.force_residual, out.report.stress_residual) < tolerance) {
+    const double residual = std::max(out.report.force_residual, out.report.stress_residual);
+    if (residual < tolerance) {
       if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex)) return DescentEnd::balanced;
       if (saddles == std::size(RelaxTuning::saddle_moves)) return DescentEnd::stalled;
       displace_at_random(r, saddles++);
@@ -125,7 +126,8 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
       return end;  // also from the overlaps of the rounded positions, which have more digits
     }
     const bool loads = !r.state.cell().beyond.empty();
-    if (attempt == RelaxTuning::most_roundings + (loads ? RelaxTuning::most_loadings : 0)) return DescentEnd::stalled;
+    if (attempt == RelaxTuning::most_roundings + (loads ? RelaxTuning::most_loadings : 0))
+      return r.at_rounding(residual, tolerance) ? DescentEnd::rounding : DescentEnd::stalled;
     r.evaluate();
     end = descend(near);
   }

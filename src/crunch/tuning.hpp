@@ -21,21 +21,21 @@ struct Tuning {
   double shrink = 0.7;           // next bound over the last one where a pair outside the list cut the step
   double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
   double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
-  double warm_step = 1e-5;       // after a shorter step the next LP starts from the last multipliers
+  // So close to jamming forces are known: after a shorter step the next LP starts from the last multipliers. From this
+  // gain or duality gap on the forces of a crystal are counted, and the cell may become free. Medians of gaps, too.
+  double close_gap = 1e-5, warm_step = close_gap;
   static constexpr double least_growth = 0.25;  // at round walls, of the growth that an LP promises (Armijo's rule)
   // |sum y - 1| of an answer that is used: as near to its tolerance as the gap of one that counts as solved.
   static constexpr double lp_unit_sum = InteriorPointTuning::near_gap * lp_rounding;
 
   // ---- from LPs to the barrier path and back
-  double curvature_ratio = 10.0;  // a step l opens contacts by l^2; above so many gains LPs go in circles
   // The path opens contacts to contact_gap_limit at least, since rounding blurs smaller gaps, and to this share of the
-  // median gap and of the square of the LP's longest step.
-  double opening = 0.1;
-  // Free cell: the path at fixed cell ends at this duality gap, and the one with strain begins at this opening.
-  double free_gap = 1e-6, free_opening = 1e-4;
+  // median gap, as the first point of an LP does, and of the square of the LP's longest step l. A step opens contacts
+  // by about l^2: LPs that gain less than that share go in circles.
+  double opening = InteriorPointTuning::first_slack;
   // A crystal, where LPs are cheaper: more rows than carrying_rows of lp/tuning.hpp have this share of the mean force.
-  // Counted from this gain or duality gap on: a large mu blurs the forces. So close to jamming are medians of gaps too.
-  double crystal_force = 0.1, close_gap = 1e-5;
+  // Not counted above close_gap: a large mu blurs the forces.
+  double crystal_force = 0.1;
 
   // ---- barrier path
   double end_roundings = 4.0;  // it ends at a duality gap of so many roundings of a closed contact, or after
@@ -54,7 +54,7 @@ struct Tuning {
   int max_steps_at_mu = 40;  // more of them, or as many short ones without progress as stall an LP, are a saddle
   // The decrement falls by this factor: short steps are counted again. Steps of the polish that gain less are the last.
   double progress = 0.6;
-  double increase = 10.0;  // of mu at a saddle
+  double increase = CorrectorTuning::band;  // of mu at a saddle: products y c stay in the band of the correctors
   // Spheres in wide holes: a direction is covered by a line to a neighbour within 1/sqrt(d) times the first.
   double covered = 0.9, farthest_reach = 2.4;
 
@@ -62,20 +62,18 @@ struct Tuning {
   double closing_gap = 1e-8;                    // a contact that stays wider when all are closed is none
   double closed_gap = 3e-14;                    // rounding of closed contacts in a box of ten diameters
   double narrow_bound = 1e-3, narrower = 0.01;  // of the first narrow LP; where an LP gains nothing, of the next
-  int max_narrow_lps = 20;                      // as many wide LPs without gain end a crunch without polish
+  int max_narrow_lps = InteriorPointTuning::max_stalled;  // as many wide LPs without gain end a crunch without polish
   int max_excess = 8;  // contacts too many that are dropped where they do not close; a crystal has more
   // A start that cannot grow but has flexes: phi rises by less than lp_rounding where a crunch has not left its
   // density. Of so many spheres all decompressions are tried before it ends there (64 disks with vacancies need up to
   // three; of 400 and 900 none helps, in 3 and 13 s), of more the first.
   size_t most_retried = 1000;
-  // Where a packing is not shown to be jammed: parts of diameters by which it is decompressed, and the share of the
-  // gaps that each of two spheres may use up when all are displaced. A free cell is strained by what this leaves.
+  // Where a packing is not shown to be jammed: parts of diameters by which it is decompressed.
   std::array<double, 5> decompression{1e-4, 1e-3, 1e-2, 3e-2, 0.1};
-  double displaced = 0.45;
 
   // ---- end at a finite duality gap
-  // An LP that ends at this part of the path's gap names contacts (finite_gap.py: 1e-2 names 1e-3 more, 1e-4 no fewer).
-  double lp_gap_fraction = 1e-3;
+  // An LP names contacts. Its tolerance is the path's gap over near_gap, so that an answer that counts as solved has no
+  // larger gap than the path (finite_gap.py: ten times as much names 1e-3 more contacts, a tenth no fewer).
   double lp_to_path_gap = 0.6;  // duality gap of that LP's forces over the gap of the path: 0.50 to 0.59
   double balanced = RigidityTuning::most_residual;  // largest net force on a sphere there, over the mean force
 
@@ -101,9 +99,6 @@ struct EstimateTuning {
   // (16384); from p = 500: 82 (1024) and 175 (2048); from random starts 102 to 134 (128 to 512), 156 (1024) and 241
   // (2048); to duality gaps of 1e-6 to 1e-9: 24 to 75. Of sequential LPs, so many more LPs.
   static constexpr double near_jamming = 1.4, from_afar = 100.0;
-  // The small spheres of a mixture roam in holes, where the barrier has saddles: at ratios of 3, 10 and 30 a path takes
-  // 1.1, 1.8 and 2.2 times as many, with half the spheres small or with equal volumes an octave.
-  static constexpr double more_per_e_fold = 0.35;
   static constexpr double steps_of_lp = 13.0;  // factorisations of one LP
   // Fronts run at this part of the rate of one large product. All else that a step does: seconds a pair.
   static constexpr double front_rate = 0.5, per_pair = 4e-7;

@@ -43,7 +43,7 @@ bool path_is_shorter(const CrunchState &s, double gain, double step) {
   if (s.o.method != JAM_CRUNCH_BARRIER_PATH || s.history.stage.path_taken) return false;
   const double isostatic = s.last.lp.dim * static_cast<double>(s.last.lp.n);
   if (gain < t.close_gap && hyperstatic(s.last.answer.y, isostatic, t)) return false;
-  return step > t.min_bound || step * step > std::max(t.curvature_ratio * gain, contact_gap_limit);
+  return step > t.min_bound || (step * step > contact_gap_limit && t.opening * step * step > gain);
 }
 
 // What follows an LP with this gain and longest step, of which the part alpha was made.

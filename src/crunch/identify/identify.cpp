@@ -210,15 +210,16 @@ bool recompress(CrunchState &s) {
   Packing &p = s.out.packing;
   s.monitor.log(JAM_LOG_INFO, "not shown to be jammed at phi %.12f: decompresses by %.0e of the diameters",
                 packing_fraction(p), parts[done]);
-  // Gaps open by this part of sigma_ij = (1 + Delta) (s_i + s_j) / 2, or of (s_i + s_j) / 2.
+  // Gaps open by this part of sigma_ij = (1 + Delta) (s_i + s_j) / 2, or of (s_i + s_j) / 2. Two spheres use up the
+  // share of a gap that any step may, each half of it; the strain of a free cell what this leaves.
   const size_t d = static_cast<size_t>(p.dim);
   const double gap = parts[done] * std::min(1.0, 1.0 + p.non_additivity),
-               room = s.tuning.displaced * gap / std::sqrt(static_cast<double>(d));
+               room = 0.5 * WorkingSetTuning::of_screened * gap / std::sqrt(static_cast<double>(d));
   Rng rng(p.seed, Stream::recompression, static_cast<uint64_t>(done) << 40);
   for (size_t k = 0; k < p.position.size(); ++k)
     p.position[k] += (2.0 * rng.uniform() - 1.0) * room * p.diameter[k / d];
   for (double &diameter : p.diameter) diameter *= 1.0 - parts[done];
-  if (s.o.strain == JAM_STRAIN_FREE) strain_at_random(p, rng, (1.0 - 2.0 * s.tuning.displaced) * gap);
+  if (s.o.strain == JAM_STRAIN_FREE) strain_at_random(p, rng, (1.0 - WorkingSetTuning::of_screened) * gap);
   wrap_positions(p);
   record_opening(s);
   s.history.stage.path_taken = false;

@@ -54,7 +54,7 @@ bool name_contacts(CrunchState &s, const std::vector<double> &path, ContactNetwo
   IpmControl control;
   double gap = 0.0;
   for (size_t k = 0; k < path.size(); ++k) gap += path[k] * s.last.lp.c[k];
-  control.tolerance = s.tuning.lp_gap_fraction * gap;
+  control.tolerance = gap / InteriorPointTuning::near_gap;
   control.threads = s.o.threads;
   control.multipliers = &path;
   s.last.answer = s.interior_point.solve(s.last.lp, control, &s.monitor);
@@ -136,8 +136,9 @@ Phase follow_path(CrunchState &s) {
   control.opening = std::max(
       {0.5 * s.out.report.gain, s.tuning.opening * s.out.report.max_step * s.out.report.max_step, contact_gap_limit});
   control.strain = s.next.strain;
-  control.least_gap = frees_cell(s) ? s.tuning.free_gap : s.o.duality_gap / s.tuning.lp_to_path_gap;
-  if (s.next.strain.count() > 0) control.opening = s.tuning.free_opening;
+  control.least_gap = frees_cell(s) ? s.tuning.close_gap : s.o.duality_gap / s.tuning.lp_to_path_gap;
+  // Strains lead away from a maximum at fixed cell: gaps as motions by the bound of an LP open them.
+  if (s.next.strain.count() > 0) control.opening = s.tuning.min_bound * s.tuning.min_bound;
   control.threads = s.o.threads;
   control.lps = s.out.report.lp_solves;
   control.from = s.history.stage.path;

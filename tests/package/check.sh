@@ -22,6 +22,11 @@ pkgconfig)
   grep -qx -- "-- pkg-config: PKG_CONFIG_PATH=$libdir/pkgconfig" "$scratch/install.log" ||
     die "the install does not print the folder of jam.pc"
   if grep '^Libs' "$libdir/pkgconfig/jam.pc" | grep ' /'; then die "jam.pc names a library by its path"; fi
+  for package in jam jam-fortran; do
+    [ -f "$libdir/pkgconfig/$package.pc" ] || continue
+    if pkg-config --define-variable=includedir='/a b' --define-variable=libdir='/a b' --cflags --libs "$package" |
+      grep '[^\\] b'; then die "$package.pc takes a folder with a blank for two"; fi
+  done
   ;;
 cmake)
   rm -rf "$scratch/consumer_cmake"

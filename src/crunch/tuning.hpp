@@ -104,7 +104,7 @@ struct EstimateTuning {
   static constexpr double front_rate = 0.5, per_pair = 4e-7;
   static constexpr double grown = 0.3;  // a list gets shorter after this part of the growth to jamming
   // Nine of ten crunches take between the estimate over and times the first: 33 of estimate.py took 0.5 to 3.9 times,
-  // nine mixtures 0.39 to 4.6. Its third power is for crystals and equal disks: by an earlier estimate of more numbers
+  // nine mixtures 0.23 to 2.8. Its third power is for crystals and equal disks: by an earlier estimate of more numbers
   // 0.02 to 100 times, and 1.4 to 23 (twenty of 1000: median 19, one 705).
   static constexpr double scatter = 7.0;
   static constexpr double too_high = 2.0;  // memory over what crunches took: to 1.6 in estimate.py, 1.8 in d = 8

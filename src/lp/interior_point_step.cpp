@@ -117,7 +117,7 @@ void InteriorPoint::centrality_correctors(Direction &d, double mu) {
   };
   for (int round = 0; round < control_.correctors; ++round) {
     const Steps now = longest(d);
-    if (now.primal > Rules::whole_step && now.dual > Rules::whole_step) return;
+    if (std::min(now.primal, now.dual) > 1.0 - LineSearchTuning::nearly_whole) return;
     const Steps aim{std::min(1.0, now.primal + C::ahead), std::min(1.0, now.dual + C::ahead)};
     for (size_t k = 0; k < rows_; ++k) targets_[k] = pull((w_[k] + aim.primal * d.w[k]) * (y_[k] + aim.dual * d.y[k]));
     if (box_)

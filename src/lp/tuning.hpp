@@ -36,7 +36,7 @@ struct InteriorPointTuning {
   static constexpr int max_correctors = 3;
   static constexpr double max_cut = 0.05, least_cut = 1e-6, cut_per_gap = 0.1;  // of the step to the boundary
   static constexpr double least_ratio = 1e-8, of_tolerance = 0.1;               // targets of mu
-  static constexpr double whole_step = 0.9, least_win = 0.03;                   // longer steps need no corrector
+  static constexpr double least_win = 0.03;                                     // of both steps, by one corrector more
 };
 
 // ---- factors in single precision (tests/bench/README.md). Below 150 flops per number of the factor, solves take as
@@ -57,7 +57,8 @@ struct CorrectorTuning {
 struct LineSearchTuning {
   static constexpr double longest = 4.0, of_feasible = 0.995;  // longer moves of an LP are at its bound
   static constexpr int golden_sections = 14;
-  static constexpr double nearly_whole = 0.1;  // a best step so near to the Newton step is the Newton step
+  // A step so near to the Newton step counts as whole: the path takes the Newton step, and it needs no corrector.
+  static constexpr double nearly_whole = 0.1;
 };
 
 // ---- what a solver may leave: of rows, over the bound; of multipliers, over their mean; of |sum y - 1|. Spheres that

@@ -219,8 +219,7 @@ void report_end(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
   certify(s.out.packing, s.out.contacts, r, s.next.strain.count() > 0);
   r.strictly_jammed = s.found.strictly_jammed;
-  const bool balanced =
-      r.force_residual < (s.o.polish ? RigidityTuning::useless_residual : InteriorPointTuning::balance);
+  const bool balanced = r.force_residual < (s.o.polish ? least_rest : InteriorPointTuning::balance);
   if (s.found.verdict.jammed == Verdict::yes && !(balanced && r.min_force >= 0.0)) {
     s.found.verdict.hear(Rule::unbalanced, Verdict::undecided);
     report_verdict(s.found.verdict, r);

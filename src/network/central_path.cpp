@@ -45,9 +45,10 @@ bool CentralPath::step() {
   while (length > Tuning::least && worst_product(length, df, dw) < Tuning::least) length *= Tuning::shorter;
   for (size_t k = 0; k < m; ++k) f_[k] += length * df[k], w_[k] += length * dw[k];
   for (size_t k = 0; k < x_.size(); ++k) x_[k] += length * dx[k];
+  const double before = mu_;
   mu_ += length * (target - mu_);
   ++steps_;
-  return length > Tuning::least;
+  return mu_ < (1.0 - Tuning::least) * before;
 }
 
 double CentralPath::worst_product(double t, const std::vector<double> &df, const std::vector<double> &dw) const {

@@ -248,8 +248,7 @@ RigidityResult test_motions(const RigidityMatrix &g, Jamming kind) {
   const bool open = out.rigid == Verdict::undecided || out.flex.empty();
   if (kind == Jamming::collective && open && test_by_strict(g, out)) return out;
   if (out.rigid != Verdict::no || !out.flex.empty()) return out;
-  const bool stressed = out.stressed == Verdict::yes,
-             useless = !(out.force_residual < RigidityTuning::useless_residual);
+  const bool stressed = out.stressed == Verdict::yes, useless = !(out.force_residual < least_rest);
   if (stressed && useless) {
     out = RigidityResult();
     out.carrying.assign(g.contacts(), 0), out.force.assign(g.contacts(), 0.0);

@@ -13,7 +13,7 @@ constexpr double gap_searches[] = {1.2, 2.0};
 // ---- interior point to the centre of the balanced forces
 struct CentralPathTuning {
   // No product f w falls below this part of their mean, so that no contact is stuck at the boundary, nor mu in one
-  // step. A shorter step ends the path.
+  // step. A step that lowers mu by less than this part ends the path.
   static constexpr double least = 1e-3;
   // Predictor and corrector: the correction is at most these parts of the target. Within the target itself, a square
   // lattice with noise of 1e-6 is undecided.
@@ -49,8 +49,8 @@ struct RoundingTuning {
 };
 
 // ---- what a projection leaves of a vector, over its length: less is none (a state of self-stress of mean force 1; a
-// motion without symmetries or those of other parts; a zero mode without those found). A motion that goes across a
-// contact by less opens it by rounding alone.
+// motion without symmetries or those of other parts; a zero mode without those found; forces that do not balance over
+// those that do). A motion that goes across a contact by less opens it by rounding alone.
 constexpr double least_rest = 1e-6;
 
 // ---- the softest modes by block iteration
@@ -62,14 +62,11 @@ struct SoftestModesTuning {
 
 // ---- the cone of self-stresses
 struct StressConeTuning {
-  static constexpr int most_steps = 60;  // on the path, and to the analytic centre
   // The support is guessed each time when mu has fallen to the first part, and first at its square: a guess at 0.1 took
   // three more factorisations for 2048 disks, a fifth of the verdict. The path ends at the second mu: there some forces
   // are by this smaller than others, and the centre is given up. At 1e-11 the triangular crystal that
   // CentralPathTuning names is undecided.
   static constexpr double next_guess = 0.1, least_mu = 1e-12;
-  // The centre: the decrement above which a step is damped.
-  static constexpr double damped = 0.25;
   // Contacts that are pulled leave a guess so often, where they are no more than this. Of equal disks, N = 1000, seed
   // 29 is undecided without; 50 packings of 100 and 20 of 300 are as they were.
   static constexpr int most_drops = 4;
@@ -89,9 +86,9 @@ struct RigidityTuning {
   // Spheres at round walls stay: squared displacements across them below this, in a flex of length 1. That length opens
   // or closes no gap that doubles distinguish from a contact.
   static constexpr double still = undecided_gap_limit * undecided_gap_limit;
-  // Forces that balance worse than this, over the mean force, prove nothing; worse than the second they do not even
-  // name the contacts.
-  static constexpr double most_residual = 1e-10, useless_residual = 1e-6;
+  // Forces that balance worse than this, over the mean force, prove nothing; those that leave more than least_rest do
+  // not even name the contacts.
+  static constexpr double most_residual = 1e-10;
   // Trial forces for dependent contacts, over the mean force. The first value that leaves no tensile force is used.
   static constexpr double dependent_forces[] = {0.1, 1e-3, 0.0};
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/call_scope.hpp"
@@ -55,11 +56,15 @@ bool NormalMatrix::factorise() {
   return factor_->factorise(0.0);
 }
 
+// Both end where what is left no longer halves: the last solve before was rounding alone.
 std::vector<double> NormalMatrix::nearest(const std::vector<double> &y) const {
   std::vector<double> v(scene_.unknowns(), 0.0), step(v.size()), left(y), image(y.size());
-  for (int pass = 0; pass < proof_tuning::refinements; ++pass) {
+  for (double last = std::numeric_limits<double>::infinity();;) {
     CallScope::look();
     multiply_columns(scene_, equations_, left.data(), step.data());
+    const double now = norm(step);
+    if (!(now < 0.5 * last)) break;
+    last = now;
     factor_->solve(step.data());
     for (size_t k = 0; k < v.size(); ++k) v[k] += step[k];
     multiply_rows(scene_, equations_, v.data(), image.data());
@@ -72,9 +77,12 @@ std::vector<double> NormalMatrix::nearest(const std::vector<double> &y) const {
 void NormalMatrix::project_on_balance(std::vector<double> &f) const {
   std::vector<double> step(scene_.unknowns()), image(f.size());
   const std::vector<double> target = balance_target(scene_);
-  for (int pass = 0; pass < proof_tuning::refinements; ++pass) {
+  for (double last = std::numeric_limits<double>::infinity();;) {
     multiply_columns(scene_, equations_, f.data(), step.data());
     for (size_t k = 0; k < step.size(); ++k) step[k] -= target[k];
+    const double now = norm(step);
+    if (!(now < 0.5 * last)) break;
+    last = now;
     factor_->solve(step.data());
     multiply_rows(scene_, equations_, step.data(), image.data());
     for (size_t c = 0; c < f.size(); ++c) f[c] -= image[c];

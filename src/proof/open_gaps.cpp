@@ -92,7 +92,7 @@ void move_between(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) 
   const Cage cage = cage_of(s, i, pairs);
   std::vector<double> normal, closing;
   for (size_t k = 0; k < cage.gap.size(); ++k) {
-    if (cage.gap[k] > proof_tuning::as_narrow * cage.overlap()) continue;
+    if (cage.gap[k] > cage.overlap()) continue;
     const auto at = cage.normal.begin() + static_cast<std::ptrdiff_t>(k) * s.dim;
     normal.insert(normal.end(), at, at + s.dim), closing.push_back(-cage.gap[k]);
   }
@@ -242,7 +242,7 @@ bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) 
   double overlap = cage.overlap();
   ProofScene moved = s;
   for (int pass = 0; pass < 3; ++pass) {
-    if (move_into_cage(moved, i, pairs, proof_tuning::freed * s.ratio[i] * std::sqrt(s.gamma())))
+    if (move_into_cage(moved, i, pairs, proof_tuning::far_above * s.ratio[i] * std::sqrt(s.gamma())))
       return s = std::move(moved), true;
     move_between(moved, i, pairs);
     const double left = cage_of(moved, i, pairs).overlap();

@@ -105,7 +105,7 @@ LpsEnd close_by_lps(ProofScene &scene) {
     before = std::move(found);
     if (gain > proof_tuning::still_climbs * length) continue;
     length *= proof_tuning::vanishing;
-    if (length < proof_tuning::vanishing * proof_tuning::closed) {
+    if (length < proof_tuning::closed) {
       take_closed(s, pairs, force);
       scene = std::move(s);
       return LpsEnd::closed;

@@ -4,8 +4,6 @@
 
 namespace jam::inside::proof_tuning {
 
-constexpr int refinements = 3;    // of a solve: each takes condition times rounding off
-constexpr double closed = 1e-26;  // |r|^2 / sigma^2 - Gamma in two doubles; rounding is 1e-32
 constexpr double leaning = 1e-2;  // forces in the middle over those that close, in a proof of such pairs
 // Inverse iterations, which give the smallest eigenvalue to some percent. Rounds: in each all contacts that do not
 // close leave, and overlapping pairs enter. LPs about positions in two doubles.
@@ -14,11 +12,11 @@ constexpr int most_rounds = 30;
 // as much opens pairs that hold spheres by its square, over Gamma.
 constexpr double vanishing = 1e-9, nearly_closed = vanishing * vanishing;
 // LPs move by the length `vanishing`, over the diameter of ratio 1, then by as small a part of it, which is what an LP
-// leaves of its step.
+// leaves of its step. What they leave of a step of nearly closed pairs is closed: |r|^2 / sigma^2 - Gamma in two
+// doubles, whose rounding is 1e-32.
+constexpr double closed = nearly_closed * vanishing;
 constexpr double still_climbs = 1e-3;  // gain of Gamma over the step, above which a step of this length is repeated
 constexpr size_t largest_lp = 4000;    // rows that Clp solves in seconds; it is not asked to stop in between
-constexpr double freed = 1e-6;         // longest way of a rattler out of an overlap, over its size
-constexpr double as_narrow = 4.0;      // gaps over the overlap of a rattler that has no room between them
 constexpr double weak = 1e-5;          // forces over the mean, below which listed contacts may be open ones
 // Shifts that are tried, as parts of the smallest eigenvalue: the largest one proves the most.
 constexpr double parts_of_eigenvalue[] = {0.6, 0.3, 0.1};

@@ -3,6 +3,8 @@ file is named."""
 import json
 import os
 import shutil
+import subprocess
+import sys
 import unittest
 import unittest.mock
 import warnings
@@ -253,6 +255,30 @@ class Shards(Case):
             shutil.copy(shard, self.folder / "e")
         with self.warned("2 files are omitted: .*and 1 more, which other files hold too"):
             self.assertEqual(self.seeds(), [1, 2, 3])
+
+    def test_a_full_disk_is_an_error_and_not_the_end_of_the_process(self):
+        """Of shards, the index and packings: each write beyond a limit fails, that of the seal, of arrays, and of what libhdf5
+        keeps until it closes a file."""
+        code = (
+            "import resource, signal, sys, jam\n"
+            "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+            "s, e, limit = jam.load('one.h5'), jam.ensemble.Ensemble('e'), int(sys.argv[1])\n"
+            "resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))\n"
+            "for write in (lambda: e.export('full'), lambda: s.save('full/one.h5')):\n"
+            "    try: write()\n"
+            "    except jam.ensemble.StoreError as error: print(error)\n"
+            "print(len(e.table()))\n"
+        )
+        shutil.copy(self.file(1), self.folder / "one.h5")
+        for limit in (100, 600, 3000, self.file(1).stat().st_size, self.shards[0].stat().st_size):
+            (self.folder / "e" / "index.bin").unlink(missing_ok=True)
+            command = [sys.executable, "-c", code, str(limit)]
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stderr), (0, ""), limit)
+            told = ["File too large"] * (1 + (limit < self.file(1).stat().st_size)) + ["^3$"]
+            for line, text in zip(done.stdout.splitlines(), told, strict=True):
+                self.assertRegex(line, text)
+            self.assertEqual([p.name for p in (self.folder / "full").iterdir()], ["one.h5"] * (len(told) == 2))
 
     def test_a_damaged_shard_is_named(self):
         data = bytearray(self.shards[0].read_bytes())

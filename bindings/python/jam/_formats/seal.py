@@ -104,17 +104,49 @@ def digest_of_rest(file: IO[bytes]) -> str:
     return found.hexdigest()
 
 
+class _Untold:
+    """A file for libhdf5, which is told of no error: after one it keeps the file open, and ends the process at exit with a
+    segmentation fault. After the first error nothing is written; it is raised when the block ends."""
+
+    def __init__(self, file: IO[bytes]) -> None:
+        self.file = file
+        self.error: BaseException | None = None
+
+    def __enter__(self) -> _Untold:
+        return self
+
+    def __exit__(self, *_: Any) -> None:
+        if self.error is not None:
+            raise self.error
+
+    def __getattr__(self, name: str) -> Any:
+        def call(*given: Any) -> Any:
+            if self.error is None:
+                try:
+                    return getattr(self.file, name)(*given)
+                except BaseException as error:  # a full disk, or Ctrl-C
+                    self.error = error
+            return 0
+
+        return call
+
+
 def seal(file: IO[bytes], content: Packing | Iterable[tuple[str, Packing]], **attributes: Any) -> None:
     """Writes one packing, or many with their names, a group each, as a sealed file whose attributes are these.
 
     The file is open to be written and read.
     """
-    with h5py.File(file, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:  # every HDF5 reads it
+    # every HDF5 reads "earliest"
+    with _Untold(file) as untold, h5py.File(untold, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:
         inside.attrs.update(attributes)
         if isinstance(content, Packing):
             place = _write(content, inside)
         else:
-            places = {name: _write(packing, inside.create_group(name)) for name, packing in content}
+            places = {}
+            for name, packing in content:
+                places[name] = _write(packing, inside.create_group(name))
+                if untold.error is not None:
+                    break
             place = _put(inside, {"packings": places})
     length, whole = file.seek(0, 2), digest_of_rest(file)
     file.seek(0)

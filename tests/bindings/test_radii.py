@@ -170,6 +170,10 @@ class Search(unittest.TestCase):
             parts = jam.radii.best_of(6, walls="xy", starts=6, workers=1, folder=Path(folder, "six"))
             with self.assertRaisesRegex(ValueError, "another search"):
                 jam.radii.best_of(7, walls="xy", starts=2, workers=1, folder=Path(folder, "six"))
+            Path(folder, "file").write_text("")
+            with self.assertRaisesRegex(OSError, "file cannot be written: File exists") as refused:
+                jam.radii.best_of(6, walls="xy", starts=2, workers=1, folder=Path(folder, "file"))
+            self.assertIsInstance(refused.exception, jam.errors.StoreError)
             for text in ("", "{", "[1]", '{"asked": 1}', '{"asked": 1, "best": [1], "done": [], "maxima": 0, "seconds": 0}'):
                 Path(folder, "six", "search.json").write_text(text)
                 with self.assertRaisesRegex(ValueError, r"search\.json is damaged .*remove it"):

@@ -17,7 +17,7 @@ import numpy as np
 from ._api.arrays import Array
 from ._api.given import closed_axes, walls_of
 from ._api.shown import only
-from ._formats.replacing import replacing
+from ._formats.replacing import replacing, writing
 from .ensemble.pool import LocalPool
 from ._sum_proof import Proved, prove_sum
 from .errors import JamError
@@ -140,7 +140,8 @@ class _State:
             if other:
                 raise ValueError(f"{self.file} is of another search: {kept['asked']}; take another folder")
         elif folder:
-            folder.mkdir(parents=True, exist_ok=True)
+            with writing(folder):
+                folder.mkdir(parents=True, exist_ok=True)
 
     def add(self, found: Best, maxima: int, seconds: float) -> None:
         self.done.add(found.start)

@@ -89,6 +89,17 @@ def _take_permissions(descriptor: int, old: os.stat_result) -> None:
 
 
 @contextlib.contextmanager
+def writing(path: str | os.PathLike[str]) -> Iterator[None]:
+    """What the system refuses inside is a StoreError that names path."""
+    try:
+        yield
+    except OSError as error:
+        if isinstance(error, (JamError, StoreError)):
+            raise
+        raise StoreError(error.errno or 5, f"{path} cannot be written: {error.strerror or error}. {MENDED}") from error
+
+
+@contextlib.contextmanager
 def replacing(path: str | os.PathLike[str], parts: str | os.PathLike[str] | None = None) -> Iterator[IO[bytes]]:
     """A file that takes the place of path when the block ends without an exception: flushed to the disk, then renamed. What the
     system refuses is a StoreError.
@@ -96,7 +107,7 @@ def replacing(path: str | os.PathLike[str], parts: str | os.PathLike[str] | None
     parts: folder of the unfinished file, on the same file system; default that of path, where those that killed writers of
     path left are removed first.
     """
-    try:
+    with writing(path):
         target = replaceable(path)
         folder, name = os.path.split(target)
         folder = os.fspath(parts or folder)
@@ -115,10 +126,6 @@ def replacing(path: str | os.PathLike[str], parts: str | os.PathLike[str] | None
                 with contextlib.suppress(OSError):
                     os.unlink(file.name)
                 raise
-    except OSError as error:
-        if isinstance(error, (JamError, StoreError)):
-            raise
-        raise StoreError(error.errno or 5, f"{path} cannot be written: {error.strerror or error}. {MENDED}") from error
     with contextlib.suppress(OSError):  # makes the rename outlive a crash; the file is whole either way
         place = os.open(os.path.dirname(target), os.O_RDONLY)
         try:

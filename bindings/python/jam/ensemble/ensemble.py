@@ -13,6 +13,7 @@ from typing import Any, Iterable, Iterator, Mapping
 
 import numpy as np
 
+from .._formats.replacing import writing
 from .._formats.write_packing import image, write_shard
 from ..errors import StoreError
 from .folder import Content, Folder
@@ -262,7 +263,8 @@ class Ensemble:
         them, and jam.load(path, name) one. Returns their paths.
         """
         target = Path(folder)
-        target.mkdir(parents=True, exist_ok=True)
+        with writing(target):
+            target.mkdir(parents=True, exist_ok=True)
         entries, made = readable(self.files, self.id), []
         for k in range(0, len(entries), per_shard):
             path = target / f"{self.id}-{k // per_shard:05d}.h5"

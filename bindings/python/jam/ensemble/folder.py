@@ -27,7 +27,7 @@ from typing import Any, Callable, Iterable, Iterator, NamedTuple
 import numpy as np
 
 from .._api.arrays import Array
-from .._formats.replacing import remove_abandoned, replacing
+from .._formats.replacing import remove_abandoned, replacing, writing
 from .._formats.seal import names_in, read_packing, refusing
 from .._formats.write_packing import ALGORITHM, provenance
 from ..errors import StoreError
@@ -80,12 +80,10 @@ class Folder:
 
     def prepare(self) -> None:
         """Makes the folders and looks whether they can be written; removes what killed writers left."""
-        try:
+        with writing(self.path):
             for part in [self.path / "protocols", self.parts] + [self.packings / f"{k:02x}" for k in range(256)]:
                 part.mkdir(parents=True, exist_ok=True)
             TemporaryFile(dir=self.parts).close()
-        except OSError as error:
-            raise StoreError(error.errno, f"{self.path}: this folder cannot be written to: {error.strerror}") from error
         remove_abandoned(self.parts)
 
     # ---- protocols

@@ -9,7 +9,7 @@ import time
 import unittest
 from pathlib import Path
 
-from jam.ensemble import Ensemble, LocalPool, WorkerDied
+from jam.ensemble import Ensemble, LocalPool, StoreError, WorkerDied
 from packings import SMALL, InFolder
 
 
@@ -24,6 +24,26 @@ class Pool(unittest.TestCase):
             self.assertEqual(pool.submit(abs, -5).result(), 5)
         with self.assertRaises(RuntimeError):
             pool.submit(abs, 1)
+
+    def test_what_no_pickle_puts_together_is_an_error_of_its_call(self):
+        """Of exceptions the text arrives, and the worker lives on."""
+        with tempfile.TemporaryDirectory() as folder, LocalPool(1) as pool:
+            Path(folder, "odd.py").write_text(
+                "class Two(Exception):\n def __init__(self, a, b): super().__init__(f'{a} of {b}')\n"
+                "class Local(Exception):\n def __reduce__(self): raise TypeError('no pickle')\n"
+                "class Answer:\n def __reduce__(self): return int, ('x',)\n"
+                "def two(): raise Two(3, 'seven')\n"
+                "def local(): raise Local('a lock')\n"
+            )
+            sys.path.append(folder)
+            self.addCleanup(sys.path.remove, folder)
+            import odd
+
+            self.assertEqual(pool.submit(abs, -1).result(), 1)
+            worker = pool.pids
+            for fn, text in ((odd.two, "Two: 3 of seven"), (odd.local, "Local: a lock"), (odd.Answer, "invalid literal for int")):
+                self.assertRegex(f"{type(error := pool.submit(fn).exception()).__name__}: {error}", f"RuntimeError.*{text}")
+            self.assertEqual((pool.submit(abs, -2).result(), pool.pids), (2, worker))
 
     def test_shutdown_kills_what_runs(self):
         pool = LocalPool(1)
@@ -143,6 +163,11 @@ class Command(unittest.TestCase):
             self.assertEqual((found["asked"], found["done"], found["missing"]), (4, 2, 2))
             self.assertEqual([x.seed for x in Ensemble(e)], [2, 4])
             self.assertEqual(self.run_jam("export", e, str(Path(folder, "out"))).returncode, 0)
+            for target, what in ((protocol, "File exists"), (protocol / "out", "Not a directory"), (Path("/sys/jam"), "")):
+                with self.assertRaisesRegex(StoreError, f"^.Errno.*{target} cannot be written: {what}"):
+                    Ensemble(e).export(target)
+                refused = self.run_jam("export", e, str(target))
+                self.assertEqual(refused.returncode, 4, refused.stderr)
             self.assertEqual(self.run_jam("run", e, "--seeds", "x").returncode, 2)
             self.assertEqual(self.run_jam("run", e, "--n", "-3", "--seeds", "1").returncode, 3)
             self.assertEqual(self.run_jam("run", "/sys/jam-packings", "--n", "20", "--seeds", "1").returncode, 4)

@@ -16,6 +16,7 @@ import signal
 import subprocess
 import sys
 import threading
+import traceback
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import suppress
 from multiprocessing.connection import Connection, Pipe
@@ -91,12 +92,16 @@ class LocalPool(ThreadPoolExecutor):
         sent = pickle.dumps(call)  # what cannot be is an error of this call
         try:
             connection.send((folders, sent))
-            done, answer = connection.recv()
+            done, answer, text = connection.recv()
         except Exception:  # the socket closed amid the call
             process.kill()
             status = process.wait()
             how = f"signal {signal.Signals(-status).name}" if status < 0 else f"exit status {status}"
             raise WorkerDied(f"worker {process.pid} ended by {how}") from None
+        try:
+            answer = pickle.loads(answer)
+        except Exception as error:  # pickle takes exceptions apart that it cannot put together
+            raise RuntimeError(f"the answer cannot be read: {text or error}") from None
         if not done:
             raise answer
         return answer
@@ -108,17 +113,18 @@ def main(descriptor: int) -> None:
     connection = Connection(descriptor)
     with suppress(EOFError, OSError):  # the campaign is gone: nobody reads this answer
         while True:
-            connection.send_bytes(_answer(*connection.recv()))
+            connection.send(_answer(*connection.recv()))
 
 
-def _answer(folders: list[str], call: bytes) -> bytes:
-    """Whether the call ended well, and what it returned or raised."""
+def _answer(folders: list[str], call: bytes) -> tuple[bool, bytes, str]:
+    """Whether the call ended well, the pickle of what it returned or raised, and the text of an exception."""
     sys.path += [p for p in folders if p not in sys.path]
     try:
         fn, args, kwargs = pickle.loads(call)
-        return pickle.dumps((True, fn(*args, **kwargs)))
+        return True, pickle.dumps(fn(*args, **kwargs)), ""
     except Exception as error:
+        text = "".join(traceback.format_exception_only(type(error), error)).strip()
         try:
-            return pickle.dumps((False, error))
+            return False, pickle.dumps(error), text
         except Exception:
-            return pickle.dumps((False, RuntimeError(f"the answer cannot be sent: {error}")))
+            return False, b"", text

@@ -61,9 +61,15 @@ class Protocols(unittest.TestCase):
             (dict(SMALL, packing_fraction=0.95), "no packing of seeds 1, 2, 3 can begin"),
             (dict(n=10, lattice="fcc"), "4 m"),
             (dict(n=10, stages=[{"verb": "shake"}]), "shake"),
+            *((dict(n=10, stages=[{"verb": v}]), f"no stage is called '{v}'") for v in ("isoconf", "check", "diameters", "crunch")),
             (dict(n=10, stages=[{"pressur": 10}]), "pressur"),
             (dict(n=10, crunch={"method": "guess"}), "guess"),
             (dict(n=10, analysis={"colour": {}}), "colour"),
+            *(  # what changes the packing, returns no numbers, writes a file or needs another packing
+                (dict(n=10, analysis={name: {}}), f"analysis.'{name}'.: no method of System that measures")
+                for name in ("compress", "crunch", "maximise_radii", "contacts_from_geometry", "strain", "tile", "copy", "cancel",
+                             "add_note", "write_stl", "compare")
+            ),
             (dict(n=10, analysis={"bond_order": {"l": 6}}), "cutoff"),
             (dict(n=10, model="flat"), "flat"),
             (dict(n=10, stages=[(-1.0, 10.0)]), r"stages\[0\]: growth_rate is -1"),
@@ -81,6 +87,13 @@ class Protocols(unittest.TestCase):
                 jam.ensemble.complete(wrong)
         for right in (dict(stages=[SOFT], crunch=None), dict(stages=[SOFT, SOFT, {"verb": "decompress"}]), dict(stages=[SOFT, {"verb": "relax"}])):
             jam.ensemble.complete(dict(right, n=10))
+
+    def test_a_wrong_analysis_is_told_the_names_that_measure(self):
+        with self.assertRaises(ProtocolError) as refused:
+            jam.ensemble.complete(dict(n=10, analysis={"zzz": {}}))
+        named = str(refused.exception).partition("there are ")[2].split(", ")
+        self.assertLessEqual({"gaps", "floppy_modes", "modes", "isoconf", "rigidity", "moduli", "prove", "crystal_score"}, {*named})
+        self.assertFalse({"cancel", "add_note", "compress", "copy", "tile", "observe", "write"} & {*named})
 
     def test_names_depend_on_protocol_seed_and_algorithm_alone(self):
         a, b = Ensemble("x", SMALL), Ensemble("y", dict(SMALL, n=26))

@@ -1,4 +1,4 @@
-"""Options of a struct in the signature and the docstring of a method that takes them as **options."""
+"""What signatures of methods say: the options of a struct in place of **options, and which methods change a packing."""
 from __future__ import annotations
 
 import inspect
@@ -6,7 +6,7 @@ import textwrap
 from typing import Any, Callable, TypeVar
 
 from . import generated
-from .generated import OPTIONS
+from .generated import CALLS, OPTIONS
 
 Method = TypeVar("Method", bound=Callable[..., Any])
 
@@ -19,6 +19,24 @@ def takes(struct: str) -> Callable[[Method], Method]:
         return method
 
     return documented
+
+
+def _methods(cls: type) -> dict[str, Any]:
+    """The methods of a class that are calls of the header under their own name."""
+    return {name[4:]: method for name in CALLS if callable(method := getattr(cls, name[4:], None))}
+
+
+def changing(cls: type) -> list[str]:
+    """Those that change the packing: their report says what stopped them, or has the forces of the network that they made."""
+    reports = {name: getattr(generated, str(inspect.signature(m).return_annotation), None) for name, m in _methods(cls).items()}
+    return [name for name, r in reports.items() if {"stop_reason", "min_force"} & getattr(r, "__annotations__", {}).keys()]
+
+
+def measuring(cls: type) -> list[str]:
+    """Those that return numbers of the packing and leave it as it is, and take no file or other packing."""
+    others = _methods(cls).keys() - changing(cls)
+    roles = {name: {role for _, role, _ in CALLS["jam_" + name][1]} for name in _methods(cls) if name in others}
+    return [name for name, r in roles.items() if r & {"array_out", "struct_out"} and not r & {"string", "handle"}]
 
 
 def _spell_out(method: Any, struct: str) -> None:

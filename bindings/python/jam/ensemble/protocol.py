@@ -14,8 +14,8 @@ from typing import Any, Iterator, Mapping, Sequence
 import numpy as np
 
 from .. import errors
-from .._api import generated
 from .._api.arrays import Array
+from .._api.documented import changing, measuring
 from .._api.generated import GROWTH_STAGES, OPTIONS, StatusCode
 from .._api.given import cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out, unknown
@@ -31,8 +31,6 @@ LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0
 ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 0.1, "stable_only": 1}, "crystal_score": {}}
 _OF_A_DRAW = {"dim", "n", "seed", "cell_volume", "packing_fraction"}  # what start and seed say
 _MOST_TRIED = 4096  # spheres of starts that are made to see whether any has room
-_NO_STAGE = ("crunch", "observe", "hessian", "modes")
-_NO_RESULT = ("copy", "tile")  # but another packing
 _OF_SOFT = ("relax", "decompress", "shear")  # stages of spheres that overlap
 _OF_SHEAR = ("to", "mode", "stress")  # what this stage takes beside the options of its verb
 
@@ -113,7 +111,7 @@ def _stage(given: Mapping[str, Any] | Sequence[float]) -> dict[str, Any]:
     """A stage: options with its verb, or as in System.compress a pair (growth_rate, pressure)."""
     rest: dict[str, Any] = dict(stage_of(given))
     verb = rest.pop("verb", "compress")
-    verbs = [s[4:-8] for s in OPTIONS if hasattr(System, s[4:-8]) and s[4:-8] not in _NO_STAGE]
+    verbs = [v for v in changing(System) if v != "crunch" and f"jam_{v}_options" in OPTIONS]
     if verb not in verbs:
         raise ProtocolError(f"no stage is called {verb!r}; there are {', '.join(verbs)}")
     own = {k: rest.pop(k, None) for k in (_OF_SHEAR if verb == "shear" else ())}
@@ -122,9 +120,8 @@ def _stage(given: Mapping[str, Any] | Sequence[float]) -> dict[str, Any]:
 
 
 def _analysis(name: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    known = [n for n in dir(System) if "jam_" + n in generated.CALLS and callable(getattr(System, n))] + ["crystal_score"]
-    if name not in known or name in _NO_RESULT:
-        raise ProtocolError(f"no method of System has this name; {unknown(name, known)}")
+    if name not in (known := [*measuring(System), "crystal_score"]):
+        raise ProtocolError(f"no method of System that measures a packing has this name; {unknown(name, known)}")
     takes = [p for p in list(inspect.signature(getattr(System, name)).parameters.values())[1:] if p.name != "progress"]
     try:
         call = inspect.Signature(takes).bind(**given)

@@ -197,7 +197,7 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
   std::vector<double> f(m), step(rows.columns()), dw(m), weight(m);
   NormalSolver solver(rows);
   double last = std::numeric_limits<double>::infinity();
-  for (int pass = 0;; ++pass) {
+  for (int pass = 0; pass < Tuning::most_steps; ++pass) {
     CallScope::report_share();
     const double widest = *std::max_element(w.begin(), w.end());
     if (!(widest < 1.0 / Tuning::least_mu * *std::min_element(w.begin(), w.end()))) return {};
@@ -213,8 +213,7 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
     }
     double decrement = 0.0;
     for (size_t k = 0; k < step.size(); ++k) decrement += gradient[k] * step[k];
-    // A damped step leaves at most 2 d^2 of d, the root of the decrement: where more stays, it is rounding. Where d is
-    // above a half and may stay, each step lowers the sum by 0.09 and more, and the bound of w over w ends that.
+    // A damped step leaves at most 2 d^2 of d, the root of the decrement: where more stays, it is rounding.
     if (!(decrement <= 4.0 * last * last)) break;
     if (pass > 0 || !ones) last = decrement;  // the unit solver has another shift
     rows.multiply(step.data(), dw.data());
@@ -254,7 +253,7 @@ StressCone find_stress_cone(const ConstraintRows &rows, const NormalSolver &solv
   double next = Tuning::next_guess * Tuning::next_guess, widest = RigidityTuning::flex_rounding;
   std::vector<double> opens_all;
   bool going = true;
-  while (going && !out.decided && path.mu() > Tuning::least_mu) {
+  while (going && !out.decided && path.steps() < Tuning::most_steps && path.mu() > Tuning::least_mu) {
     going = path.step();
     if (path.mu() > next) continue;
     next = Tuning::next_guess * path.mu();

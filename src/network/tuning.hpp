@@ -62,6 +62,8 @@ struct SoftestModesTuning {
 
 // ---- the cone of self-stresses
 struct StressConeTuning {
+  // On the path, and to the analytic centre: rounding can hold a decrement above the bound that a damped step leaves.
+  static constexpr int most_steps = 60;
   // The support is guessed each time when mu has fallen to the first part, and first at its square: a guess at 0.1 took
   // three more factorisations for 2048 disks, a fifth of the verdict. The path ends at the second mu: there some forces
   // are by this smaller than others, and the centre is given up. At 1e-11 the triangular crystal that

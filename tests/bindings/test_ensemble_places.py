@@ -275,10 +275,10 @@ class Shards(Case):
             command = [sys.executable, "-c", code, str(limit)]
             done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True)
             self.assertEqual((done.returncode, done.stderr), (0, ""), limit)
-            told = ["File too large"] * (1 + (limit < self.file(1).stat().st_size)) + ["^3$"]
-            for line, text in zip(done.stdout.splitlines(), told, strict=True):
+            wanted = ["File too large"] * (1 + (limit < self.file(1).stat().st_size)) + ["^3$"]
+            for line, text in zip(done.stdout.splitlines(), wanted, strict=True):
                 self.assertRegex(line, text)
-            self.assertEqual([p.name for p in (self.folder / "full").iterdir()], ["one.h5"] * (len(told) == 2))
+            self.assertEqual([p.name for p in (self.folder / "full").iterdir()], ["one.h5"] * (len(wanted) == 2))
 
     def test_a_damaged_shard_is_named(self):
         data = bytearray(self.shards[0].read_bytes())

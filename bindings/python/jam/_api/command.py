@@ -70,7 +70,7 @@ def printed(answer: Callable[[list[str] | None], int]) -> Callable[[list[str] | 
     is an output that cannot be written."""
 
     @functools.wraps(answer)
-    def told(arguments: list[str] | None = None) -> int:
+    def printing(arguments: list[str] | None = None) -> int:
         _keep_standard_streams()
         try:
             try:
@@ -82,4 +82,4 @@ def printed(answer: Callable[[list[str] | None], int]) -> Callable[[list[str] | 
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the interpreter flushes it once more at its end
             return OUTPUT
 
-    return told
+    return printing

@@ -104,15 +104,15 @@ def digest_of_rest(file: IO[bytes]) -> str:
     return found.hexdigest()
 
 
-class _Untold:
-    """A file for libhdf5, which is told of no error: after one it keeps the file open, and ends the process at exit with a
+class _ErrorKeepingFile:
+    """A file that libhdf5 sees without errors: after one it keeps the file open, and ends the process at exit with a
     segmentation fault. After the first error nothing is written; it is raised when the block ends."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self.file = file
         self.error: BaseException | None = None
 
-    def __enter__(self) -> _Untold:
+    def __enter__(self) -> _ErrorKeepingFile:
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -137,7 +137,7 @@ def seal(file: IO[bytes], content: Packing | Iterable[tuple[str, Packing]], **at
     The file is open to be written and read.
     """
     # every HDF5 reads "earliest"
-    with _Untold(file) as untold, h5py.File(untold, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:
+    with _ErrorKeepingFile(file) as held, h5py.File(held, "w", userblock_size=USER_BLOCK, libver="earliest") as inside:
         inside.attrs.update(attributes)
         if isinstance(content, Packing):
             place = _write(content, inside)
@@ -145,7 +145,7 @@ def seal(file: IO[bytes], content: Packing | Iterable[tuple[str, Packing]], **at
             places = {}
             for name, packing in content:
                 places[name] = _write(packing, inside.create_group(name))
-                if untold.error is not None:
+                if held.error is not None:
                     break
             place = _put(inside, {"packings": places})
     length, whole = file.seek(0, 2), digest_of_rest(file)

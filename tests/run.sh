@@ -10,7 +10,6 @@
 #   fuzz        libFuzzer on every target for 20 seconds, 60 in all
 # More run when they are named, as they take long:
 #   clang       the library without sanitizers by Clang, and its C tests
-#   packages    installs what the parts above and `browser` need, and does nothing else
 #   quick       a loop of two minutes: the library for d = 2 and 3, and tests that end within seconds. It installs
 #               only what a C library needs
 #   openblas    crunches by the products of OpenBLAS (JAM_BLAS=openblas), as on three processors: packings end
@@ -23,6 +22,7 @@
 #               tests/README.md has the table. It fails below the floor of tests/coverage.py
 #   browser     libjam for JavaScript by Emscripten, its tests by Node, and the page lab.html where ./build is there
 #   sanitized_physics  address and undefined behaviour by GCC, over all that runs without other programs, those ten too
+# And `packages` installs what the six parts and `browser` need, and does nothing else.
 # `sh tests/run.sh`, from any folder; the builds are ./build, ./build-wheel (also of a test in ./build), ./build-asan
 # (of two parts), ./build-threads, ./build-clang, ./build-asan-gcc, ./build-openblas, ./build-two and ./build-wasm.
 # Uses ccache where it is installed. Parts can be named: `sh tests/run.sh release clang`.

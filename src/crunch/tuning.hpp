@@ -21,8 +21,8 @@ struct Tuning {
   double shrink = 0.7;           // next bound over the last one where a pair outside the list cut the step
   double reach_per_bound = 2.2;  // listed gaps over the bound: two spheres meet from either side
   double early_gap = 0.02;       // an LP ends at this share of its gain, or at its optimum
-  // So close to jamming forces are known: after a shorter step the next LP starts from the last multipliers. From this
-  // gain or duality gap on the forces of a crystal are counted, and the cell may become free. Medians of gaps, too.
+  // Close to jamming is a gain, a duality gap or a median gap below close_gap: there forces of a crystal are counted,
+  // and the cell may become free. After a step shorter than warm_step the next LP starts from the last multipliers.
   double close_gap = 1e-5, warm_step = close_gap;
   static constexpr double least_growth = 0.25;  // at round walls, of the growth that an LP promises (Armijo's rule)
   // |sum y - 1| of an answer that is used: as near to its tolerance as the gap of one that counts as solved.
@@ -104,8 +104,8 @@ struct EstimateTuning {
   static constexpr double front_rate = 0.5, per_pair = 4e-7;
   static constexpr double grown = 0.3;  // a list gets shorter after this part of the growth to jamming
   // Nine of ten crunches take between the estimate over and times the first: 33 of estimate.py took 0.5 to 3.9 times,
-  // nine mixtures 0.23 to 2.8. Its third power is for crystals and equal disks: by an earlier estimate of more numbers
-  // 0.02 to 100 times, and 1.4 to 23 (twenty of 1000: median 19, one 705).
+  // mixtures: tests/bench/results/estimate_mixtures.json. Its third power is for crystals and equal disks: by an
+  // earlier estimate of more numbers 0.02 to 100 times, and 1.4 to 23 (twenty of 1000: median 19, one 705).
   static constexpr double scatter = 7.0;
   static constexpr double too_high = 2.0;  // memory over what crunches took: to 1.6 in estimate.py, 1.8 in d = 8
 };

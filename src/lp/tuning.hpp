@@ -57,7 +57,8 @@ struct CorrectorTuning {
 struct LineSearchTuning {
   static constexpr double longest = 4.0, of_feasible = 0.995;  // longer moves of an LP are at its bound
   static constexpr int golden_sections = 14;
-  // A step so near to the Newton step counts as whole: the path takes the Newton step, and it needs no corrector.
+  // Within this part of 1 a step is whole: the path then takes the Newton step, and a direction of an LP gets no
+  // further corrector. Correctors of the path have their own whole_step.
   static constexpr double nearly_whole = 0.1;
 };
 

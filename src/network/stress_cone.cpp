@@ -213,11 +213,12 @@ std::vector<double> centre(const ConstraintRows &rows, const NormalSolver &unit,
     }
     double decrement = 0.0;
     for (size_t k = 0; k < step.size(); ++k) decrement += gradient[k] * step[k];
-    // A damped step leaves at most 2 d^2 of d, the root of the decrement: where more stays, it is rounding.
+    // A damped step leaves at most 2 d^2 of d, the root of the decrement, and the longer step is taken to do so too:
+    // a larger one is rounding.
     if (!(decrement <= 4.0 * last * last)) break;
-    if (pass > 0 || !ones) last = decrement;  // the unit solver has another shift
+    if (pass > 0 || !ones) last = decrement;  // a step by the unit solver, of another shift, is no measure
     rows.multiply(step.data(), dw.data());
-    // The damped step stays inside and goes down for sure. As the decrement vanishes both go to the whole step.
+    // The damped step stays inside and lowers the sum. As the decrement vanishes, both lengths go to 1.
     const double length = std::max(1.0 / (1.0 + std::sqrt(decrement)), best_length(w, dw));
     for (size_t k = 0; k < m; ++k) w[k] += length * dw[k];
     if (decrement < 1e-12) break;

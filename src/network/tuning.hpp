@@ -49,8 +49,9 @@ struct RoundingTuning {
 };
 
 // ---- what a projection leaves of a vector, over its length: less is none (a state of self-stress of mean force 1; a
-// motion without symmetries or those of other parts; a zero mode without those found; forces that do not balance over
-// those that do). A motion that goes across a contact by less opens it by rounding alone.
+// motion without symmetries or those of other parts; a zero mode without those found). Also the largest net force
+// over the mean force, above which forces do not name contacts. A motion that goes across a contact by less opens it by
+// rounding alone.
 constexpr double least_rest = 1e-6;
 
 // ---- the softest modes by block iteration
@@ -62,7 +63,8 @@ struct SoftestModesTuning {
 
 // ---- the cone of self-stresses
 struct StressConeTuning {
-  // On the path, and to the analytic centre: rounding can hold a decrement above the bound that a damped step leaves.
+  // On the path, and to the analytic centre: a decrement that rounding holds at 1/4 or more never exceeds the bound of
+  // `centre`, 4 times the square of the last one.
   static constexpr int most_steps = 60;
   // The support is guessed each time when mu has fallen to the first part, and first at its square: a guess at 0.1 took
   // three more factorisations for 2048 disks, a fifth of the verdict. The path ends at the second mu: there some forces
@@ -88,8 +90,8 @@ struct RigidityTuning {
   // Spheres at round walls stay: squared displacements across them below this, in a flex of length 1. That length opens
   // or closes no gap that doubles distinguish from a contact.
   static constexpr double still = undecided_gap_limit * undecided_gap_limit;
-  // Forces that balance worse than this, over the mean force, prove nothing; those that leave more than least_rest do
-  // not even name the contacts.
+  // Forces that balance worse than this, over the mean force, prove nothing; worse than least_rest, they do not
+  // even name the contacts.
   static constexpr double most_residual = 1e-10;
   // Trial forces for dependent contacts, over the mean force. The first value that leaves no tensile force is used.
   static constexpr double dependent_forces[] = {0.1, 1e-3, 0.0};

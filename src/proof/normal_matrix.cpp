@@ -56,7 +56,7 @@ bool NormalMatrix::factorise() {
   return factor_->factorise(0.0);
 }
 
-// Both end where what is left no longer halves: the last solve before was rounding alone.
+// nearest() and project_on_balance() end where the residual no longer halves: the last solve was rounding alone.
 std::vector<double> NormalMatrix::nearest(const std::vector<double> &y) const {
   std::vector<double> v(scene_.unknowns(), 0.0), step(v.size()), left(y), image(y.size());
   for (double last = std::numeric_limits<double>::infinity();;) {

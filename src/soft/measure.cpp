@@ -200,7 +200,7 @@ double Relaxation::stable_residual() const {
 // Overlaps have the digits of the displacements, which the next list makes small, or in plain doubles of coordinates.
 bool Relaxation::at_rounding(double residual, double tolerance) const {
   double overlap = sums.overlap / static_cast<double>(sums.contacts);
-  if (const double stiffens = 2.0 - state.energy().alpha(); stiffens > 0.0) {  // the stiffest contact has most of it
+  if (const double stiffens = 2.0 - state.energy().alpha(); stiffens > 0.0) {  // the least overlap rounds most
     const std::vector<double> all = state.contacts().overlap;
     if (!all.empty()) overlap *= math::pow(*std::min_element(all.begin(), all.end()) / overlap, stiffens);
   }

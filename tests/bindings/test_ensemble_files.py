@@ -88,7 +88,7 @@ class Protocols(unittest.TestCase):
         for right in (dict(stages=[SOFT], crunch=None), dict(stages=[SOFT, SOFT, {"verb": "decompress"}]), dict(stages=[SOFT, {"verb": "relax"}])):
             jam.ensemble.complete(dict(right, n=10))
 
-    def test_a_wrong_analysis_is_told_the_names_that_measure(self):
+    def test_the_error_of_a_wrong_analysis_lists_the_names_that_measure(self):
         with self.assertRaises(ProtocolError) as refused:
             jam.ensemble.complete(dict(n=10, analysis={"zzz": {}}))
         named = str(refused.exception).partition("there are ")[2].split(", ")

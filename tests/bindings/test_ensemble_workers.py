@@ -25,8 +25,8 @@ class Pool(unittest.TestCase):
         with self.assertRaises(RuntimeError):
             pool.submit(abs, 1)
 
-    def test_what_no_pickle_puts_together_is_an_error_of_its_call(self):
-        """Of exceptions the text arrives, and the worker lives on."""
+    def test_what_pickle_cannot_restore_is_an_error_of_its_call(self):
+        """The text of such an exception arrives, and the worker takes the next call."""
         with tempfile.TemporaryDirectory() as folder, LocalPool(1) as pool:
             Path(folder, "odd.py").write_text(
                 "class Two(Exception):\n def __init__(self, a, b): super().__init__(f'{a} of {b}')\n"

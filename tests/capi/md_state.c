@@ -77,7 +77,8 @@ static void seal(char *data, size_t size) {
   memcpy(data + size - 8, &sum, 8);
 }
 
-/* A stage never has a growth rate that its call refuses: below 1e-15 it would grow nothing, without end. */
+/* A stage never has a growth rate that its call refuses: below 1e-15 no diameter would change, and the
+ * stage would not end. */
 CASE(growth_rates_of_stages_are_those_of_calls) {
   OWNED jam_system *sys = make(JAM_MODEL_EUCLID, 60);
   jam_system *out = NULL;

@@ -110,7 +110,7 @@ CASE(forces_at_rounding) {
         assert_false(end.report.converged);
         assert_true(end.report.force_residual < 1e-13);
       }
-  // Nor where a weak contact is stiff, as below alpha = 2, or where rounded positions balance a little worse.
+  // PRECISION also where a weak contact is stiff, as below alpha = 2, or rounded positions balance a little worse.
   for (int64_t seed = 1; seed <= 3; ++seed)
     for (const double alpha : {1.5, 1.8}) {
       const SoftResult end = relaxed(random_packing(3, 64, 0.7, seed), JAM_MINIMISER_NEWTON, alpha, 1e-15);

@@ -210,8 +210,8 @@ bool recompress(CrunchState &s) {
   Packing &p = s.out.packing;
   s.monitor.log(JAM_LOG_INFO, "not shown to be jammed at phi %.12f: decompresses by %.0e of the diameters",
                 packing_fraction(p), parts[done]);
-  // Gaps open by this part of sigma_ij = (1 + Delta) (s_i + s_j) / 2, or of (s_i + s_j) / 2. Two spheres use up the
-  // share of a gap that any step may, each half of it; the strain of a free cell what this leaves.
+  // Gaps open by parts[done] of sigma_ij = (1 + Delta) (s_i + s_j) / 2, or of (s_i + s_j) / 2. Each of two spheres
+  // moves by at most half of the share of_screened of a gap; the strain of a free cell takes the rest.
   const size_t d = static_cast<size_t>(p.dim);
   const double gap = parts[done] * std::min(1.0, 1.0 + p.non_additivity),
                room = 0.5 * WorkingSetTuning::of_screened * gap / std::sqrt(static_cast<double>(d));

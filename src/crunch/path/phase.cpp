@@ -137,7 +137,8 @@ Phase follow_path(CrunchState &s) {
       {0.5 * s.out.report.gain, s.tuning.opening * s.out.report.max_step * s.out.report.max_step, contact_gap_limit});
   control.strain = s.next.strain;
   control.least_gap = frees_cell(s) ? s.tuning.close_gap : s.o.duality_gap / s.tuning.lp_to_path_gap;
-  // Strains lead away from a maximum at fixed cell: gaps as motions by the bound of an LP open them.
+  // Strains lead away from the maximum at fixed cell, so gaps are opened as far as motions of length min_bound open
+  // them.
   if (s.next.strain.count() > 0) control.opening = s.tuning.min_bound * s.tuning.min_bound;
   control.threads = s.o.threads;
   control.lps = s.out.report.lp_solves;

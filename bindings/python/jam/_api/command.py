@@ -66,8 +66,7 @@ def _keep_standard_streams() -> None:
 
 
 def printed(answer: Callable[[list[str] | None], int]) -> Callable[[list[str] | None], int]:
-    """Decorates what answers a command line with an exit status, and of which print alone raises OSError: what cannot be printed
-    is an output that cannot be written."""
+    """Decorates the main function of a command. In it only print may raise OSError: that becomes a message and the status OUTPUT."""
 
     @functools.wraps(answer)
     def printing(arguments: list[str] | None = None) -> int:

@@ -27,13 +27,13 @@ def _methods(cls: type) -> dict[str, Any]:
 
 
 def changing(cls: type) -> list[str]:
-    """Those that change the packing: their report says what stopped them, or has the forces of the network that they made."""
+    """Methods that change the packing: their report says what stopped them, or has the forces of the network that they made."""
     reports = {name: getattr(generated, str(inspect.signature(m).return_annotation), None) for name, m in _methods(cls).items()}
     return [name for name, r in reports.items() if {"stop_reason", "min_force"} & getattr(r, "__annotations__", {}).keys()]
 
 
 def measuring(cls: type) -> list[str]:
-    """Those that return numbers of the packing and leave it as it is, and take no file or other packing."""
+    """Methods that return numbers of the packing and leave it as it is, and take no file or other packing."""
     others = _methods(cls).keys() - changing(cls)
     roles = {name: {role for _, role, _ in CALLS["jam_" + name][1]} for name in _methods(cls) if name in others}
     return [name for name, r in roles.items() if r & {"array_out", "struct_out"} and not r & {"string", "handle"}]

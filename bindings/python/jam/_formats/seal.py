@@ -105,8 +105,8 @@ def digest_of_rest(file: IO[bytes]) -> str:
 
 
 class _ErrorKeepingFile:
-    """A file that libhdf5 sees without errors: after one it keeps the file open, and ends the process at exit with a
-    segmentation fault. After the first error nothing is written; it is raised when the block ends."""
+    """Hides errors of a file from libhdf5, which after an error would keep the file open and end the process at exit with a
+    segmentation fault. After the first error nothing is written; leaving the block raises that error."""
 
     def __init__(self, file: IO[bytes]) -> None:
         self.file = file
@@ -161,7 +161,8 @@ def _put(group: Any, index: dict[str, Any]) -> list[Any]:
 
 
 def _write(packing: Packing, group: Any) -> list[Any]:
-    """A packing with its index into a group; returns what _put() does. By the low calls of h5py: the high ones take twice as long for all of it."""
+    """Writes a packing and its index into a group; returns the place of the index, as _put(). By the low calls of h5py: with the
+    high ones all of this takes twice as long."""
     check_names(packing.arrays)
     data, above = {}, h5py.h5p.create(h5py.h5p.LINK_CREATE)
     above.set_create_intermediate_group(True)

@@ -96,7 +96,7 @@ def _run(o: argparse.Namespace) -> Status:
 
 @printed
 def main(arguments: list[str] | None = None) -> int:
-    """Returns the exit status. The only OSError that leaves it is that of print."""
+    """Returns the exit status. In the body only print may raise OSError, as `printed` needs."""
     p = parser()
     o = p.parse(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):

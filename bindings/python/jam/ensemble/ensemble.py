@@ -57,7 +57,7 @@ def lasts(failure: Mapping[str, Any]) -> bool:
 
 
 def with_bar(answers: Iterable[Any], total: int, done: int) -> Iterable[Any]:
-    """The same answers, behind a bar of tqdm on a terminal where tqdm is there."""
+    """The same answers. A bar of tqdm counts them, on a terminal and if tqdm is installed."""
     with suppress(ImportError):
         from tqdm import tqdm
 
@@ -160,8 +160,8 @@ class Ensemble:
         return replace(self._status(content, seeds), made=made, remade=tuple(map(str, remade)))
 
     def _make(self, seeds: list[int], pool: Executor, asked: int, remake_damaged: bool) -> int:
-        """Hands one call a seed to the executor and takes the answers; returns how many packings were made. A bar shows how many
-        are there of those asked for; 0: none."""
+        """Hands one call a seed to the executor and takes the answers; returns how many packings were made.
+        asked: where the bar ends; 0: no bar."""
         folder, text, made = os.fspath(self.files.path.resolve()), to_json(self.protocol), 0
         seed_of: dict[Future[str], int] = {}
         try:

@@ -66,8 +66,8 @@ class Folder:
         return self.packing(name).with_suffix(".json")
 
     def place(self, name: str) -> tuple[Path, str]:
-        """Where a packing lies or may be written, and what is there: "done", "damaged" or "". That is beside its own place, where a
-        file of another one has that."""
+        """Where a packing lies or may be written, and what is there: "done", "damaged" or "". If the file of another
+        packing has the place, it is NAME-2.h5, and so on."""
         beside = 1
         while (path := self.packing(name if beside == 1 else f"{name}-{beside}")).exists():
             try:

@@ -100,8 +100,9 @@ class LocalPool(ThreadPoolExecutor):
             raise WorkerDied(f"worker {process.pid} ended by {how}") from None
         try:
             answer = pickle.loads(answer)
-        except Exception as error:  # pickle takes exceptions apart that it cannot put together
-            raise RuntimeError(f"the answer cannot be read: {text or error}") from None
+        except Exception as error:  # pickle writes some exceptions that it cannot read
+            what = f"the call raised {text}, which" if text else f"{error}: the answer is what"
+            raise RuntimeError(f"{what} pickle cannot restore") from None
         if not done:
             raise answer
         return answer

@@ -10,7 +10,6 @@
 enum { EXIT_DONE = 0, EXIT_EARLY = 1, EXIT_USAGE = 2, EXIT_FAILED = 3, EXIT_OUTPUT = 4 };
 
 #define MAX_STAGES 32
-#define LEAST_TIME 1e-3 /* seconds: calls refuse a wall_time of 0, and in less they would do next to nothing */
 enum { NOT_GIVEN = -1 };
 
 typedef struct stage {
@@ -71,7 +70,7 @@ typedef struct terminal {
   const jam_system *sys;
 } terminal;
 double seconds_now(void);
-double seconds_until(double deadline); /* on that clock; LEAST_TIME where it has passed */
+double seconds_until(double deadline); /* on that clock; above 0, as calls refuse a wall_time of 0 */
 int start_progress(terminal *t, const options *o, jam_system *sys);
 void write_checkpoint(const jam_system *sys, const options *o);
 int end_progress(terminal *t, const options *o);

@@ -17,13 +17,13 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->seconds_md += md->seconds;
 }
 
-/* Time of a slice over that of writing its checkpoint, at least: so most time goes to the dynamics, and no slice ends
- * before the first collision. */
-static const double slice_per_writing = 10;
+/* Of a slice: seconds, and its time over that of writing its checkpoint, at least. So most time goes to the dynamics,
+ * and no slice ends before the first collision. */
+static const double least_time = 1e-3, slice_per_writing = 10;
 
 /* With --checkpoint a stage runs in slices, and a killed job goes on from the last one. */
 static double slice(const options *o, double deadline, double writing) {
-  const double left = seconds_until(deadline), least = fmax(slice_per_writing * writing, LEAST_TIME);
+  const double left = seconds_until(deadline), least = fmax(slice_per_writing * writing, least_time);
   return o->checkpoint ? fmin(left, fmax(o->checkpoint_every, least)) : left;
 }
 
@@ -32,7 +32,7 @@ static int goes_on(const jam_system *sys, const options *o, double deadline, jam
   const double begun = seconds_now();
   if (status >= 0) write_checkpoint(sys, o);
   *writing = seconds_now() - begun;
-  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && seconds_until(deadline) > LEAST_TIME &&
+  return status == JAM_LIMIT && md->stop_reason == JAM_STOP_WALL_TIME && seconds_until(deadline) > least_time &&
          !stop_if_asked(NULL, NULL);
 }
 

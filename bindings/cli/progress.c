@@ -1,6 +1,7 @@
 /* What jam-pack reports while it works: progress on stderr, and the log. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
+#include <float.h>
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -16,7 +17,7 @@ double seconds_now(void) {
   return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-double seconds_until(double deadline) { return fmax(deadline - seconds_now(), LEAST_TIME); }
+double seconds_until(double deadline) { return fmax(deadline - seconds_now(), DBL_MIN); }
 
 void write_checkpoint(const jam_system *sys, const options *o) {
   if (o->checkpoint && jam_write_checkpoint(sys, o->checkpoint) < 0) complain("%s", jam_last_error());

@@ -280,6 +280,18 @@ class Shards(Case):
                 self.assertRegex(line, text)
             self.assertEqual([p.name for p in (self.folder / "full").iterdir()], ["one.h5"] * (len(wanted) == 2))
 
+    def test_the_memory_limit_is_of_one_packing(self):
+        """However long a shard is: what export writes can be read."""
+        path, name = self.shards[0], self.e.name(1)
+        largest = max(self.file(seed).stat().st_size for seed in (1, 2))
+        self.assertGreater(path.stat().st_size, largest)
+        same_bits(jam.load(path, name, memory_limit=largest), next(iter(self.e)).system())
+        with self.assertRaisesRegex(jam.ensemble.StoreError, f"{name}.*memory_limit="):
+            jam.load(path, name, memory_limit=1000)
+        for wrong in (-1, 0, 10_001):
+            with self.assertRaisesRegex(ValueError, "per_shard"):
+                self.e.export(self.folder / "more", wrong)
+
     def test_a_damaged_shard_is_named(self):
         data = bytearray(self.shards[0].read_bytes())
         data[100] ^= 1

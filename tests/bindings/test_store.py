@@ -257,11 +257,14 @@ class Crafted(Case):
 
     def test_a_file_longer_than_the_limit_is_refused_unread(self):
         path = self.folder / "sparse.h5"
-        with open(path, "wb") as file:
-            file.write(self.good[:512])
-            file.truncate(1 << 42)
-        with self.assertRaisesRegex(StoreError, "memory_limit="):
-            jam.load(path)
+        place = re.search(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})\nsha256 ([0-9a-f]{64})", self.good)
+        index = [int(place[1]), int(place[2]), place[3].decode()]
+        for head, why in ((self.good[:512], "does not fit"), (seal.head_of(1 << 42, index, place[4].decode()), "memory_limit=")):
+            with open(path, "wb") as file:
+                file.write(head + self.good[512:])
+                file.truncate(1 << 42)
+            with self.assertRaisesRegex(StoreError, why):
+                jam.load(path)
         with self.assertRaisesRegex(StoreError, "memory_limit="):
             jam.load(self.path, memory_limit=1000)
         path.unlink()

@@ -268,13 +268,13 @@ class JamPack(InFolder):
         self.report(*job, "--output", self.dir / "whole.dat")
         kept = self.dir / "state.bin"
         job += ["--checkpoint", kept, "--output", self.dir / "part.dat"]
-        first = self.report(*job, "--wall-time", 0.25, status=1)
+        first = self.report(*job, "--wall-time", 0.05, status=1)
         self.assertEqual(first["stop_reason"], "wall_time")
         rounds = 0
         while True:
-            report = self.report(*job, "--resume", kept, "--wall-time", 0.6, status=None)
+            report = self.report(*job, "--resume", kept, "--wall-time", 0.05 * 1.2**rounds, status=None)
             rounds += 1
-            if report["stop_reason"] == "pressure" and report["pressure"] > 9e4 or rounds > 100:
+            if report["stop_reason"] == "pressure" and report["pressure"] > 9e4 or rounds > 40:
                 break
         self.assertGreater(rounds, 1)
         self.assertEqual((self.dir / "whole.dat").read_bytes(), (self.dir / "part.dat").read_bytes())

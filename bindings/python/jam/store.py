@@ -29,7 +29,7 @@ def load(
     name : str, optional
         Of the packing in a shard.
     memory_limit : float, optional
-        Bytes of the largest file that is read; default a quarter of the machine's memory.
+        Bytes of the largest packing that is read; default a quarter of the machine's memory.
 
     Raises
     ------

@@ -38,7 +38,8 @@ _MOST_ARRAYS, _DEEPEST = 4096, 12  # of a packing: bounds what a crafted index c
 _KIND = re.compile(r"[<>|][biufcS][1-9][0-9]{0,8}")
 _CHUNK = 1 << 20
 SCHEMA = 1
-_LARGEST_INDEX = 1 << 22  # bytes; 1000 packings of a shard take 0.1 MB
+_LARGEST_INDEX = 1 << 22  # bytes
+MOST_PACKINGS = 10_000  # of a shard, whose index has 140 bytes for each
 _SEAL = re.compile(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})\nsha256 ([0-9a-f]{64})\n")
 _READERS = "h5py reads its arrays, and System.from_arrays takes positions, diameters and cell vectors"
 #: Arrays with a second name, as H5MD has them.
@@ -214,15 +215,8 @@ def refusing(path: Any) -> Iterator[None]:
 class _File:
     """An open file whose seal fits. places: of each packing of a shard its index; that of a file of one has no name."""
 
-    def __init__(self, path: Any, file: IO[bytes], limit: float | None) -> None:
+    def __init__(self, path: Any, file: IO[bytes]) -> None:
         self.path, self.file, self.length = path, file, os.fstat(file.fileno()).st_size
-        # a quarter of the machine's memory, as arrays and system are made of it
-        most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 if limit is None else limit
-        if self.length > most:
-            raise StoreError(
-                27,
-                f"{path} has {self.length:.3g} bytes, at most {most:.3g} are read: give memory_limit= if the file is your own",
-            )
         head = file.read(USER_BLOCK)
         if not head.startswith(BEGIN):
             raise StoreError(22, f"{path} {_what_it_is(head)}")
@@ -251,11 +245,18 @@ class _File:
         text = self.read("the index", *place)
         return json.loads(text, parse_int=lambda digits: int(digits[:20]))  # no place or size has more
 
-    def packing(self, name: str | None) -> Packing:
+    def packing(self, name: str | None, limit: float | None) -> Packing:
         index = self.places[name] if name is None else self.index(self.places[name])
         check_names(index["data"])
-        if sum(size_of(shape, type_of(kind)) for _, shape, kind, _ in index["data"].values()) > self.length:
+        size = sum(size_of(shape, type_of(kind)) for _, shape, kind, _ in index["data"].values())
+        if size > self.length:
             raise ValueError("the arrays together are longer than the file")
+        size = self.length if name is None else size  # what is read, once
+        # a quarter of the machine's memory, as arrays and system are made of it
+        most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 if limit is None else limit
+        if size > most:
+            why = f"{size:.3g} bytes, at most {most:.3g} are read: give memory_limit= if the file is your own"
+            raise StoreError(27, f"{self.path} {'has' if name is None else f'holds a packing {name!r} of'} {why}")
         arrays = {}
         for path, (at, shape, kind, expected) in index["data"].items():
             if not all(isinstance(k, int) and 0 <= k <= self.length for k in shape):
@@ -278,7 +279,7 @@ def _what_it_is(head: bytes) -> str:
 def names_in(path: str | os.PathLike[str]) -> list[str]:
     """Names of the packings of a shard; none of a file of one packing."""
     with refusing(path), open_regular(path) as opened:
-        return [name for name in _File(path, opened, None).places if name is not None]
+        return [name for name in _File(path, opened).places if name is not None]
 
 
 def read_packing(
@@ -286,11 +287,11 @@ def read_packing(
 ) -> Packing:
     """A packing from its file, or by its name from a shard. For memory_limit see store.load()."""
     with refusing(path), open_regular(path) as opened:
-        file = _File(path, opened, memory_limit)
+        file = _File(path, opened)
         if name not in file.places:
             many = f"is a shard of {len(file.places)} packings: name one, e.g. name={next(iter(file.places), '')!r}"
             raise StoreError(22, f"{path} {many}" if name is None else f"{path} holds no packing {name!r}")
-        found = file.packing(name)
+        found = file.packing(name, memory_limit)
         schema = int(found.attributes["jam"]["schema"])
         if schema > SCHEMA:
             raise StoreError(22, f"{path}: schema {schema} is newer than the schema {SCHEMA} of this jam")

@@ -14,6 +14,7 @@ from typing import Any, Iterable, Iterator, Mapping
 import numpy as np
 
 from .._formats.replacing import writing
+from .._formats.seal import MOST_PACKINGS
 from .._formats.write_packing import image, write_shard
 from ..errors import StoreError
 from .folder import Content, Folder
@@ -259,9 +260,11 @@ class Ensemble:
                     yield found[0] if len(names) == 1 else found
 
     def export(self, folder: str | os.PathLike[str], per_shard: int = 1000) -> list[Path]:
-        """Packs the packings into HDF5 files of `per_shard` each, a group a packing, in the order of seeds; Ensemble(folder) reads
-        them, and jam.load(path, name) one. Returns their paths.
+        """Packs the packings into HDF5 files of `per_shard` each, 1 to 10,000, a group a packing, in the order of seeds;
+        Ensemble(folder) reads them, and jam.load(path, name) one. Returns their paths.
         """
+        if not 1 <= per_shard <= MOST_PACKINGS:
+            raise ValueError(f"per_shard must be from 1 to {MOST_PACKINGS}, not {per_shard}")
         target = Path(folder)
         with writing(target):
             target.mkdir(parents=True, exist_ok=True)

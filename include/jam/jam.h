@@ -1044,9 +1044,9 @@ typedef enum jam_soft_scale {
   JAM_SOFT_ABSOLUTE = 1, /* c = 1 / alpha, l = 1 in the unit of the box */
   JAM_SOFT_BARE = 2      /* c = 1, l = 1 */
 } jam_soft_scale;
-/* How the energy is minimised. From one start the methods reach different minima: each is a protocol. NEWTON: FIRE
- * (alpha < 2: L-BFGS) until the contacts stop changing, then Newton's method with pre-stress. Methods move away
- * from saddles; all except NEWTON test for them only up to some 5000 spheres (d = 3), and the log says so. */
+/* How the energy is minimised. From one start the methods reach different minima: each is a protocol. NEWTON:
+ * L-BFGS until the contacts stop changing, then Newton's method with pre-stress. Methods move away from saddles;
+ * all except NEWTON test for them only up to some 5000 spheres (d = 3), and the log says so. */
 typedef enum jam_minimiser {
   JAM_MINIMISER_NEWTON = 0, /* Newton's method; rattlers are put in the middle of their cages */
   JAM_MINIMISER_FIRE = 1,   /* FIRE 2.0 alone (Guenole et al., Comput. Mater. Sci. 175, 109584 (2020)) */

@@ -13,8 +13,8 @@
 namespace jam::inside {
 namespace {
 
-// Newton's method on the stable spheres, with pre-stress; and the production method, FIRE (L-BFGS below alpha = 2)
-// until contacts settle and then Newton.
+// Newton's method on the stable spheres, with pre-stress; and the production method, L-BFGS until contacts settle and
+// then Newton.
 
 // Levenberg and Marquardt: a shift of the Hessian that grows where contacts change and steps gain less energy than the
 // quadratic model says. `stalled` when the steps do not lead to the tolerance.
@@ -224,22 +224,16 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
 
 DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &convex) {
   SoftHessian hessian;
-  // Below alpha = 2 the stiffness of a contact grows without bound as it opens. The time step of FIRE follows the mean
-  // one, so such contacts chatter: at alpha = 3/2 it stays at a residual of 1e-4, while L-BFGS continues.
-  const bool stiffens_at_contact = r.state.energy().alpha() < 2.0;
   double target = NewtonTuning::settled;
   for (bool descend = !near_minimum;; descend = true) {
-    DescentEnd end;
     if (descend) {
       convex = false;
-      end = stiffens_at_contact ? lbfgs(r, std::max(target, tolerance)) : fire(r, std::max(target, tolerance));
+      const DescentEnd end = lbfgs(r, std::max(target, tolerance));
       if (end != DescentEnd::balanced) return end;
-    }
-    if (descend) {
       centre_rattlers(r.state);
       r.evaluate();
     }
-    end = newton(r, tolerance, hessian, 0.0, convex);
+    const DescentEnd end = newton(r, tolerance, hessian, 0.0, convex);
     if (end != DescentEnd::stalled) return end;
     if (!descend) continue;
     if (target <= tolerance) return r.stable_residual() < tolerance ? DescentEnd::balanced : DescentEnd::stalled;

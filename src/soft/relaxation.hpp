@@ -1,5 +1,5 @@
 // Minimising the energy of soft spheres. Data flow:
-//   state -> FIRE | L-BFGS until contacts settle -> Newton on the stable spheres -> balance of forces
+//   state -> L-BFGS until contacts settle -> Newton on the stable spheres -> balance of forces
 #pragma once
 #include <limits>
 

@@ -113,7 +113,7 @@ class Shear {
     bool bracketed = false, located = false;  // bracketed: from here to `bad` it does not add up
     for (at_.done = 0.0, at_.strain = strain; at_.done != step;) {
       ShearPoint next = at(out_.last, trial - at_.done);
-      if (!next.found && bracketed && next.at.status != JAM_CANCELLED && !monitor_.interrupted()) {
+      if (!next.found && bracketed && !located && next.at.status != JAM_CANCELLED && !monitor_.interrupted()) {
         located = true, trial = bad;  // so near to jamming minima cannot be found
         continue;
       }

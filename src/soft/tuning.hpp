@@ -26,7 +26,7 @@ struct LbfgsTuning {
 // ---- both: evaluations between two tests of which spheres are stable
 constexpr int64_t evaluations_between_looks = 64;
 
-// ---- Newton's method after FIRE or BFGS, by Levenberg and Marquardt
+// ---- Newton's method after L-BFGS, by Levenberg and Marquardt
 struct NewtonTuning {
   static constexpr double settled = 1e-4;     // residual from which Newton is tried first
   static constexpr double next_target = 0.1;  // after Newton has failed, descent continues to this part of the residual

@@ -108,7 +108,7 @@ class MolecularDynamics(unittest.TestCase):
     def test_growth_from_touching_spheres_names_the_mend(self):
         """Soft spheres relaxed until they touch collide without time to move: the pressure is not that of the density."""
         s = jam.System.random(300, 2, packing_fraction=0.81, overlap="allow", seed=3)
-        self.assertEqual(s.relax().stop_reason.name, "UNJAMMED")
+        self.assertEqual(s.relax(minimiser="fire").stop_reason.name, "UNJAMMED")  # comes to rest where the last pairs part
         alone = jam.System.from_arrays(s.positions, s.diameters)
         for found in (s.compress(packing_fraction=0.82), alone.compress(growth_rate=1e-3, pressure=1e3)):  # reached at once, without growth
             self.assertNotEqual(found.status.name, "OK")

@@ -60,6 +60,21 @@ CASE(contacts_that_stiffen) {
   }
 }
 
+// Contacts of the smallest spheres are the stiffest, so a step that follows the mean stiffness is too long for them.
+CASE(wide_mixtures) {
+  for (const double ratio : {3.0, 10.0, 30.0})
+    for (int64_t seed = 1; seed <= 3; ++seed) {
+      Packing start = random_packing(2, 200, 0.95, seed);
+      for (size_t i = 0; i < start.n(); ++i)
+        start.diameter[i] = std::pow(ratio, static_cast<double>(i) / static_cast<double>(start.n()));
+      const double scale = std::sqrt(0.95 / packing_fraction(start));
+      for (double &s : start.diameter) s *= scale;
+      const SoftResult end = relaxed(start, JAM_MINIMISER_NEWTON);
+      assert_int_equal(end.status, JAM_OK);
+      assert_true(end.report.force_residual < 1e-12 && end.report.evaluations < 20000);
+    }
+}
+
 // Near alpha = 1 the force of a contact jumps as it closes. Every method converges to what it reports, or says that it
 // did not; a decompression keeps no minimum that does not balance.
 CASE(alpha_near_one) {

@@ -109,7 +109,8 @@ static void displace_at_random(Relaxation &r, size_t attempt) {
 DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum,
                                 SoftResult &out) {
   bool convex = false;
-  const auto descend = [&](bool near) { return minimise(r, minimiser, tolerance, near, &convex); };
+  double asked = tolerance;
+  const auto descend = [&](bool near) { return minimise(r, minimiser, asked, near, &convex); };
   DescentEnd end = descend(near_minimum);
   size_t saddles = 0;
   for (int attempt = 0;; ++attempt) {
@@ -119,9 +120,15 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     const double residual = std::max(out.report.force_residual, out.report.stress_residual);
     if (residual < tolerance) {
       if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex)) return DescentEnd::balanced;
-      if (saddles == std::size(RelaxTuning::saddle_moves)) return DescentEnd::stalled;
-      displace_at_random(r, saddles++);
-      attempt = 0, near = false;
+      if (asked > RelaxTuning::before_strain) {  // on the way to a minimum, forces may balance as roughly
+        asked *= NewtonTuning::next_target;
+      } else if (saddles == std::size(RelaxTuning::saddle_moves)) {
+        return DescentEnd::stalled;
+      } else {
+        displace_at_random(r, saddles++);
+        near = false;
+      }
+      attempt = 0;
     } else if (end == DescentEnd::rounding && attempt > 0) {
       return end;  // also from the overlaps of the rounded positions, which have more digits
     }

@@ -28,8 +28,9 @@ constexpr int64_t evaluations_between_looks = 64;
 
 // ---- Newton's method after L-BFGS, by Levenberg and Marquardt
 struct NewtonTuning {
-  static constexpr double settled = 1e-4;     // residual from which Newton is tried first
-  static constexpr double next_target = 0.1;  // after Newton has failed, descent continues to this part of the residual
+  static constexpr double settled = 1e-4;  // residual from which Newton is tried first
+  // Descent continues to this part of the residual after Newton has failed, or where spheres are not held yet.
+  static constexpr double next_target = 0.1;
   static constexpr double longest_move = 0.05;       // in one step
   static constexpr double good_factor = 0.2;         // a step that leaves less of the residual needs no new factor
   static constexpr double energy_is_blind = 1e-6;    // residual below which the slope is tested in place of the energy
@@ -72,8 +73,8 @@ struct CoincidentTuning {
 
 // ---- relaxation
 struct RelaxTuning {
-  // The minimum of a fixed cell is found to this residual before the cell is free. Mean forces below the part weak_part
-  // of what the pressure makes of one contact a sphere are none.
+  // The minimum of a fixed cell is found to this residual before the cell is free, and none above it is a saddle. Mean
+  // forces below the part weak_part of what the pressure makes of one contact a sphere are none.
   static constexpr double before_strain = 1e-6, weak_part = 1e-3;
   // The resulting state has rounded positions. Where they do not balance, the descent continues, at most this
   // many times.

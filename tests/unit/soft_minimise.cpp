@@ -75,6 +75,23 @@ CASE(wide_mixtures) {
     }
 }
 
+// Near jamming, forces of the way there may balance to 1e-2 where spheres are not held yet: that is no saddle.
+CASE(loose_tolerances) {
+  jam_decompress_options o = default_decompress_options();
+  o.distance = 1e-6, o.isostatic = 0, o.crunch = 0;
+  for (int64_t seed = 1; seed <= 3; ++seed) {
+    Packing shaken = decompressed(random_packing(3, 200, 0.7, seed), o).soft.packing;
+    Rng rng(seed, Stream::velocities);
+    for (double &x : shaken.position) x = wrap(x + 6e-7 * shaken.diameter[0] * (rng.uniform() - 0.5), 1.0);
+    for (const double tolerance : {1e-2, 1e-3})
+      for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+        const SoftResult end = relaxed(shaken, m, 2.0, tolerance);
+        assert_int_equal(end.status, JAM_OK);
+        assert_true(end.report.force_residual < tolerance);
+      }
+  }
+}
+
 // Near alpha = 1 the force of a contact jumps as it closes. Every method converges to what it reports, or says that it
 // did not; a decompression keeps no minimum that does not balance.
 CASE(alpha_near_one) {

@@ -119,7 +119,8 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     bool near = true;
     const double residual = std::max(out.report.force_residual, out.report.stress_residual);
     if (residual < tolerance) {
-      if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex)) return DescentEnd::balanced;
+      if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex))
+        return out.report.contacts > 0 ? DescentEnd::balanced : DescentEnd::no_overlaps;
       if (asked > RelaxTuning::before_strain) {  // on the way to a minimum, forces may balance as roughly
         asked *= NewtonTuning::next_target;
       } else if (saddles == std::size(RelaxTuning::saddle_moves)) {

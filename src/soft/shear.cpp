@@ -171,36 +171,42 @@ class Shear {
     for (size_t c = 0; c < d * d && p.rigid; ++c) sum -= path_.mode[c] * p.stress[c];
     return sum;
   }
-  double work_stress(const ShearPoint &p) const {
-    double sum = stress(p);
-    const size_t d = static_cast<size_t>(p.at.packing.dim);
-    for (size_t c = 0; c < d; ++c) sum += path_.mode[c * (d + 1)] * p.confining;
-    return sum;
-  }
-
-  // Of loads beyond the pressure, by the logarithm of the strain from a to b.
-  double load_work(const ShearPoint &a, const ShearPoint &b, double step) const {
-    if (b.beyond.empty()) return 0.0;
+  // The logarithm of the deformation from a to b, to third order: with its products, a strain of free components turns
+  // part of the mode into others, of the second order as the work that a step may miss.
+  std::vector<double> log_strain(const ShearPoint &b, double step) const {
     const size_t d = static_cast<size_t>(b.at.packing.dim);
-    const std::vector<double> affine = finite_strain(path_.mode, step, b.at.packing.dim);
-    std::vector<double> e(d * d);
-    const auto product = [&](const std::vector<double> &x, const std::vector<double> &y, size_t at) {
-      double sum = 0.0;
-      for (size_t c = 0; c < d; ++c) sum += x[at / d * d + c] * y[c * d + at % d];
+    std::vector<double> e(d * d), out(d * d);
+    for (size_t k = 0; k < d * d; ++k) out[k] = step * path_.mode[k];
+    if (b.strain.empty()) return out;
+    const auto product = [&](const std::vector<double> &x, const std::vector<double> &y) {
+      std::vector<double> sum(d * d, 0.0);
+      for (size_t k = 0; k < d * d; ++k)
+        for (size_t c = 0; c < d; ++c) sum[k] += x[k / d * d + c] * y[c * d + k % d];
       return sum;
     };
-    for (size_t k = 0; k < d * d; ++k) e[k] = affine[k] + b.strain[k] + product(b.strain, affine, k);
-    double sum = 0.0;
-    for (size_t k = 0; k < d * d; ++k) sum += b.beyond[k] * (e[k] - 0.5 * product(e, e, k));
-    return 0.5 * (a.volume + b.volume) * sum;
+    const std::vector<double> affine = finite_strain(path_.mode, step, b.at.packing.dim);
+    const std::vector<double> both = product(b.strain, affine);
+    for (size_t k = 0; k < d * d; ++k) e[k] = affine[k] + b.strain[k] + both[k];
+    const std::vector<double> square = product(e, e), cube = product(square, e);
+    for (size_t k = 0; k < d * d; ++k) out[k] = e[k] - square[k] / 2.0 + cube[k] / 3.0;
+    return out;
   }
 
+  // The enthalpy must change by the work of the mean stress on the whole strain, held stresses and pressure too.
   bool suspicious(const ShearPoint &a, const ShearPoint &b, double step) const {
     if (a.rigid != b.rigid || !a.rigid) return a.rigid != b.rigid;
-    const double wa = a.volume * work_stress(a), wb = b.volume * work_stress(b);
-    const double departs = std::fabs(b.enthalpy - a.enthalpy + load_work(a, b, step) - 0.5 * step * (wa + wb));
+    const size_t d = static_cast<size_t>(b.at.packing.dim);
+    const std::vector<double> strain = log_strain(b, step);
+    double work = 0.0, change = 0.0;
+    for (size_t k = 0; k < d * d; ++k) {
+      const double on = k % (d + 1) == 0 ? 1.0 : 0.0;
+      const double before = a.volume * (on * a.confining - a.stress[k]);
+      const double after = b.volume * (on * b.confining - b.stress[k]);
+      work += 0.5 * strain[k] * (before + after), change += strain[k] * (after - before);
+    }
+    const double departs = std::fabs(b.enthalpy - a.enthalpy - work);
     const double noise = ShearTuning::energy_digits * (std::fabs(a.enthalpy) + std::fabs(b.enthalpy));
-    return departs > ShearTuning::suspicious * std::fabs(step * (wb - wa)) + noise;
+    return departs > ShearTuning::suspicious * std::fabs(change) + noise;
   }
 
   bool at_end(bool event) {

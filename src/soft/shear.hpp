@@ -19,7 +19,7 @@ struct ShearPoint {
   bool rigid = false;  // contacts carry force
   double enthalpy = 0.0, volume = 0.0, confining = 0.0;  // confining: P where the volume is free, else 0
   std::vector<double> stress;                            // (dim, dim), in units of d enthalpy / d volume
-  std::vector<double> beyond, strain;  // loads beyond the pressure, as in FreeCell, and what the minimiser strained
+  std::vector<double> strain;                            // (dim, dim), of a free cell, by the minimiser
 };
 using FindMinimum = std::function<ShearPoint(const Packing &, bool first)>;
 

@@ -373,7 +373,8 @@ class CommandLine(InFolder):
         ):
             code, _, err = in_process(ensemble.main, words.split(), self.folder)
             self.assertEqual((code, "is given twice: leave one out" in err), (USAGE, True), err)
-        self.assertEqual(in_process(ensemble.main, "run D --seed 1-2".split(), self.folder)[0], USAGE)
+        for words in ("run D --seed 1-2", "export D E --shard 0"):
+            self.assertEqual(in_process(ensemble.main, words.split(), self.folder)[0], USAGE)
         for status, words in ((REFUSED, "status D --json"), (USAGE, "status D --json --n x")):
             code, out, _ = in_process(ensemble.main, words.split(), self.folder)
             said = json.loads(out)

@@ -208,6 +208,17 @@ class Shear(unittest.TestCase):
                     held &= held.T  # all but the component that the shear drives
                     np.testing.assert_allclose(s.stress()[held], target[held], atol=1e-10 * p)
 
+    def test_a_cell_that_follows_a_load_takes_whole_steps(self):
+        """The work is that of all stresses on the logarithm of the whole strain: without its commutators the energy departs at
+        every length of a step, and a shear goes on by its resolution, here by 90,000 minima."""
+        for n, seed, alpha, step in ((8, 29, 1.5, 5e-3), (32, 1, 2.0, 5e-3), (32, 2, 2.0, 1e-3)):
+            s = soft(n, seed=seed, alpha=alpha)
+            stress = np.diag([1.2, 1.0]) * s.stress().trace() / 2
+            report = s.shear(0.05, step=step, alpha=alpha, stress=stress, strain="edges_volume", wall_time=100.0)
+            self.assertEqual(report.stop_reason, jam.StopReason.STRAIN)
+            halvings = np.log2(step / 1e-6) + 3  # of an event, and what tests it
+            self.assertLess(report.steps, (len(s.shear_rows) + report.events) * halvings)
+
     def test_loads_work(self):
         s = soft(64)
         p = s.stress().trace() / 2

@@ -267,6 +267,10 @@ class Crafted(Case):
                 jam.load(path)
         with self.assertRaisesRegex(StoreError, "memory_limit="):
             jam.load(self.path, memory_limit=1000)
+        with self.assertRaisesRegex(StoreError, "memory_limit="):
+            jam.load(self.path, memory_limit=float("nan"))
+        with self.assertRaisesRegex(ValueError, "float"):
+            jam.load(self.path, memory_limit="a")
         path.unlink()
 
 

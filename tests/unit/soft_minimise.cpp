@@ -75,6 +75,15 @@ CASE(wide_mixtures) {
     }
 }
 
+// What is left of overlaps at rest is below their rounding: no spheres that jam.
+CASE(steep_energies_below_jamming) {
+  for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+    const SoftResult end = relaxed(random_packing(2, 30, 0.3, 947), m, 12.0);
+    assert_int_equal(end.status, JAM_NOT_JAMMED);
+    assert_int_equal(end.report.contacts, 0);
+  }
+}
+
 // Near jamming, forces of the way there may balance to 1e-2 where spheres are not held yet: that is no saddle.
 CASE(loose_tolerances) {
   jam_decompress_options o = default_decompress_options();

@@ -36,7 +36,7 @@ def load(
     StoreError
         The file is not there, is damaged, was changed since it was written, or contains no packing. The text names it.
     """
-    packing = read_packing(path, name, memory_limit)
+    packing = read_packing(path, name, None if memory_limit is None else float(memory_limit))
     with refusing(path):
         calls, stored = json.loads(packing.get("jam/calls")), packing.arrays
         if not (isinstance(calls, list) and all(isinstance(c, dict) for c in calls)):

@@ -254,7 +254,7 @@ class _File:
         size = self.length if name is None else size  # what is read, once
         # a quarter of the machine's memory, as arrays and system are made of it
         most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 if limit is None else limit
-        if size > most:
+        if not size <= most:
             why = f"{size:.3g} bytes, at most {most:.3g} are read: give memory_limit= if the file is your own"
             raise StoreError(27, f"{self.path} {'has' if name is None else f'holds a packing {name!r} of'} {why}")
         arrays = {}

@@ -10,6 +10,7 @@ from contextlib import ExitStack
 from typing import Any
 
 from .._api.command import DONE, OUTPUT, PARTIAL, REFUSED, Parser, json_answer, printed, refuse
+from .._formats.seal import MOST_PACKINGS
 from ..errors import StoreError
 from .ensemble import Ensemble
 from .protocol import ProtocolError
@@ -101,6 +102,8 @@ def main(arguments: list[str] | None = None) -> int:
     o = p.parse(arguments)
     if o.verb == "run" and (o.executor == "dask") != (o.scheduler is not None):
         p.error("--executor dask and --scheduler ADDRESS belong together")
+    if o.verb == "export" and not 1 <= o.shard <= MOST_PACKINGS:
+        p.error(f"--shard is {o.shard}, it must be from 1 to {MOST_PACKINGS}")
     as_json = o.verb == "status" and o.json
     try:
         if o.verb == "export":

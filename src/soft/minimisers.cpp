@@ -232,11 +232,13 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &conv
       if (end != DescentEnd::balanced) return end;
       centre_rattlers(r.state);
       r.evaluate();
+      // Newton's method from so rough a balance may leave it.
+      if (target <= tolerance && r.stable_residual() < tolerance) return DescentEnd::balanced;
     }
     const DescentEnd end = newton(r, tolerance, hessian, 0.0, convex);
     if (end != DescentEnd::stalled) return end;
     if (!descend) continue;
-    if (target <= tolerance) return r.stable_residual() < tolerance ? DescentEnd::balanced : DescentEnd::stalled;
+    if (target <= tolerance) return DescentEnd::stalled;
     target = NewtonTuning::next_target * std::min(target, r.stable_residual());
   }
 }

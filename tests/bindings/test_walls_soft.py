@@ -92,6 +92,17 @@ class Minima(unittest.TestCase):
             np.testing.assert_array_equal(far.positions, unit * near.positions)
 
 
+class Tolerance(unittest.TestCase):
+    def test_what_balances_roughly_is_kept(self):
+        """Mixtures of 1:100, whose last balance Newton's method left again from a residual of 1e-2."""
+        for seed in (9, 21, 22):
+            for tolerance in (1e-2, 1e-4):
+                s = jam.System.random(60, 2, packing_fraction=1.1, overlap="allow", diameters=100 ** np.linspace(0, 1, 60), seed=seed, walls="x")
+                r = s.relax(force_tolerance=tolerance)
+                self.assertTrue(r.converged, str(r))
+                self.assertLess(r.force_residual, tolerance)
+
+
 class Known(unittest.TestCase):
     def test_two_disks_and_two_balls_rest_on_a_diameter(self):
         # a radius, x distance from the centre: (a - 1/2 + x) / a^2 = (2 a - 2 x) / (4 a^2), so x = (1 - a) / 3.

@@ -17,8 +17,8 @@ static void add_md(outcome *result, const jam_md_report *md) {
   result->seconds_md += md->seconds;
 }
 
-/* Of a slice: seconds, and its time over that of writing its checkpoint, at least. So most time goes to the dynamics,
- * and no slice ends before the first collision. */
+/* Least seconds of a slice, and least ratio to the time of writing its checkpoint, but for the last slice. So most time
+ * goes to the dynamics, and no other slice ends before the first collision. */
 static const double least_time = 1e-3, slice_per_writing = 10;
 
 /* With --checkpoint a stage runs in slices, and a killed job goes on from the last one. */

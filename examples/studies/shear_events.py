@@ -6,7 +6,7 @@ usage: shear_events.py PICTURE.png
   disks are relaxed at the pressure p with all strains free, so that they are stable to shear.
 - Events: in steady flow the mean strain between two events falls as N^(-2/3) (Karmakar, Lerner, Procaccia, Phys. Rev. E
   82, 055103 (2010), of other potentials). Here at phi = 0.9, by steps of 1e-3, from strain 0.1 to 0.2.
-Half of the disks are 1.4 times as large. A minute of one processor. Needs `jam`, numpy, matplotlib.
+Half of the disks are 1.4 times as large. Minutes of one processor. Needs `jam`, numpy, matplotlib.
 """
 import sys
 

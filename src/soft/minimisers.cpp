@@ -232,7 +232,7 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &conv
       if (end != DescentEnd::balanced) return end;
       centre_rattlers(r.state);
       r.evaluate();
-      // Newton's method from so rough a balance may leave it.
+      // The tolerance is met, and Newton's method could leave this balance.
       if (target <= tolerance && r.stable_residual() < tolerance) return DescentEnd::balanced;
     }
     const DescentEnd end = newton(r, tolerance, hessian, 0.0, convex);

@@ -121,7 +121,7 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     if (residual < tolerance) {
       if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex))
         return out.report.contacts > 0 ? DescentEnd::balanced : DescentEnd::no_overlaps;
-      if (asked > RelaxTuning::before_strain) {  // on the way to a minimum, forces may balance as roughly
+      if (asked > RelaxTuning::before_strain) {  // so roughly, forces may balance before the minimum
         asked *= NewtonTuning::next_target;
       } else if (saddles == std::size(RelaxTuning::saddle_moves)) {
         return DescentEnd::stalled;

@@ -171,8 +171,8 @@ class Shear {
     for (size_t c = 0; c < d * d && p.rigid; ++c) sum -= path_.mode[c] * p.stress[c];
     return sum;
   }
-  // The logarithm of the deformation from a to b, to third order: with its products, a strain of free components turns
-  // part of the mode into others, of the second order as the work that a step may miss.
+  // The logarithm of the deformation from a to b, to third order. Products of the mode with the strain of free
+  // components are of second order, as is the work that a step may miss.
   std::vector<double> log_strain(const ShearPoint &b, double step) const {
     const size_t d = static_cast<size_t>(b.at.packing.dim);
     std::vector<double> e(d * d), out(d * d);

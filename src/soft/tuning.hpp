@@ -73,8 +73,9 @@ struct CoincidentTuning {
 
 // ---- relaxation
 struct RelaxTuning {
-  // The minimum of a fixed cell is found to this residual before the cell is free, and none above it is a saddle. Mean
-  // forces below the part weak_part of what the pressure makes of one contact a sphere are none.
+  // The minimum of a fixed cell is found to this residual before the cell is free. Above it, what seems a saddle is
+  // minimised to less before spheres are moved away. Mean forces below the part weak_part of what the pressure makes of
+  // one contact a sphere are none.
   static constexpr double before_strain = 1e-6, weak_part = 1e-3;
   // The resulting state has rounded positions. Where they do not balance, the descent continues, at most this
   // many times.

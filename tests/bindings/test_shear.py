@@ -158,7 +158,7 @@ class Shear(unittest.TestCase):
                 self.assertLess(np.abs(moved[stable]).max(), 1e-12 * s.box * 10)
 
     def test_energy_is_the_work_but_at_events(self):
-        """To second order in the step: by the trapezoidal rule, as contacts that open or close bend the stress."""
+        """Between events, energy and the trapezoidal sum of the work differ at second order in the step."""
         departs = {1e-3: 0.0, 2.5e-4: 0.0}
         for step in departs:
             for seed in (1, 2, 3):
@@ -174,7 +174,7 @@ class Shear(unittest.TestCase):
                 self.assertTrue((np.diff(h["strain"])[at] <= 1e-6 * 1.01).all())
                 self.assertLess(np.abs(lost[~at]).sum(), 0.02 * lost[at].sum())
                 departs[step] += np.abs(lost[~at]).sum()
-        self.assertLess(departs[2.5e-4], departs[1e-3] / 5)  # 4: first order, 16: second, but that fewer events are resolved
+        self.assertLess(departs[2.5e-4], departs[1e-3] / 5)  # 16 at second order, 4 at first; the shorter step resolves more events
 
     def test_a_search_for_an_event_ends(self):
         """Where no minimum is found behind the strain that bisection came to."""
@@ -209,8 +209,8 @@ class Shear(unittest.TestCase):
                     np.testing.assert_allclose(s.stress()[held], target[held], atol=1e-10 * p)
 
     def test_a_cell_that_follows_a_load_takes_whole_steps(self):
-        """The work is that of all stresses on the logarithm of the whole strain: without its commutators the energy departs at
-        every length of a step, and a shear goes on by its resolution, here by 90,000 minima."""
+        """The work is that of all stresses on the logarithm of the whole strain. Without its commutators the energy departs from
+        the work at every length of a step, and the shear proceeds by steps of its resolution."""
         for n, seed, alpha, step in ((8, 29, 1.5, 5e-3), (32, 1, 2.0, 5e-3), (32, 2, 2.0, 1e-3)):
             s = soft(n, seed=seed, alpha=alpha)
             stress = np.diag([1.2, 1.0]) * s.stress().trace() / 2

@@ -137,8 +137,8 @@ CASE(down_to_jamming) {
   assert_int_equal(jam_copy(sys, &copy), JAM_OK);
   assert_int_equal(jam_decompress(sys, NULL, &d), JAM_OK);
   assert_true(d.isostatic == 1 && d.same_network == 1 && d.excess_contacts == 0 && d.common_contacts == d.contacts);
-  /* Of the last overlaps, some 1e-4, what is left is of second order. */
-  assert_true(fabs(d.jammed_fraction / d.crunch_fraction - 1.0) < 1e-7 && d.force_difference < 0.1);
+  /* the extrapolation leaves a small part of the distance */
+  assert_true(fabs(d.jammed_fraction / d.crunch_fraction - 1.0) < 0.01 * d.distance && d.force_difference < 0.1);
   assert_int_equal(jam_get_crunch_report(sys, &report), JAM_OK);
   assert_true(report.jammed == 1 && report.contacts == d.contacts && report.packing_fraction == d.crunch_fraction);
   size_t needed = 0;

@@ -39,7 +39,7 @@ _KIND = re.compile(r"[<>|][biufcS][1-9][0-9]{0,8}")
 _CHUNK = 1 << 20
 SCHEMA = 1
 _LARGEST_INDEX = 1 << 22  # bytes
-MOST_PACKINGS = 10_000  # of a shard, whose index has 140 bytes for each
+MOST_PACKINGS = 10_000  # of a shard: its index stays below _LARGEST_INDEX
 _SEAL = re.compile(rb"index (\d{20}) (\d{20})\nindex sha256 ([0-9a-f]{64})\nsha256 ([0-9a-f]{64})\n")
 _READERS = "h5py reads its arrays, and System.from_arrays takes positions, diameters and cell vectors"
 #: Arrays with a second name, as H5MD has them.
@@ -251,11 +251,11 @@ class _File:
         size = sum(size_of(shape, type_of(kind)) for _, shape, kind, _ in index["data"].values())
         if size > self.length:
             raise ValueError("the arrays together are longer than the file")
-        size = self.length if name is None else size  # what is read, once
+        size = self.length if name is None else size  # bytes read
         # a quarter of the machine's memory, as arrays and system are made of it
         most = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES") // 4 if limit is None else limit
         if not size <= most:
-            why = f"{size:.3g} bytes, at most {most:.3g} are read: give memory_limit= if the file is your own"
+            why = f"{size:.3g} bytes, above the limit of {most:.3g}: give memory_limit= if the file is your own"
             raise StoreError(27, f"{self.path} {'has' if name is None else f'holds a packing {name!r} of'} {why}")
         arrays = {}
         for path, (at, shape, kind, expected) in index["data"].items():

@@ -127,7 +127,8 @@ bool approach_closure(ProofScene &s, ProofEquations &e) {
   for (;;) {
     CallScope::look();
     const NewtonStep step = newton_step(s, e, normal);
-    if (!(norm(step.v) < s.cell.side())) break;  // of a singular matrix: infinite, or not a number
+    // Of a singular matrix, or of rows that no packing closes nearby: it may be infinite, or not a number.
+    if (!(norm(step.v) < s.cell.side()) || !(std::fabs(step.gamma) < s.gamma())) break;
     ProofScene next = s;
     take_step(next, step);
     ProofEquations there = evaluate(next);

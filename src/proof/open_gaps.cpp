@@ -237,11 +237,9 @@ OpenGaps open_gaps(const ProofScene &s, double radius, double growth) {
 }
 
 bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) {
-  const Cage cage = cage_of(s, i, pairs);
-  if (!cage.has_directions()) return false;
-  double overlap = cage.overlap();
+  double overlap = cage_of(s, i, pairs).overlap();
   ProofScene moved = s;
-  for (int pass = 0; pass < 3; ++pass) {
+  for (int pass = 0; pass < 3 && cage_of(moved, i, pairs).has_directions(); ++pass) {
     if (move_into_cage(moved, i, pairs, proof_tuning::far_above * s.ratio[i] * std::sqrt(s.gamma())))
       return s = std::move(moved), true;
     move_between(moved, i, pairs);

@@ -124,6 +124,30 @@ CASE(the_text_of_a_proof_is_short) {
   assert_string_equal(jam_proof_text(0, 8, 0.0, 0.0, 0.0), "");
 }
 
+/* Few spheres with contacts that lie a diameter apart: a step of Newton's method has no bound there, and no pair that an
+   LP may move is near. Nothing is proved, and that is the answer. */
+CASE(contacts_that_are_wide_open_prove_nothing) {
+  static const struct {
+    int32_t container, n;
+    uint64_t seed;
+    double fraction;
+  } scenes[] = {{JAM_CONTAINER_BRICK, 4, 283498360, 0.11782852382484808},
+                {JAM_CONTAINER_BRICK, 2, 233799658, 0.1946000370123504},
+                {JAM_CONTAINER_CYLINDER, 4, 54816107, 0.14988370422450784},
+                {JAM_CONTAINER_BALL, 5, 974180972, 0.18107074223966385}};
+  for (size_t k = 0; k < sizeof scenes / sizeof *scenes; ++k) {
+    jam_proof_report r = {.struct_size = sizeof r};
+    DEFAULTS(create, o);
+    DEFAULTS(geometry, wide);
+    o.container = scenes[k].container, o.n = scenes[k].n, o.seed = scenes[k].seed;
+    o.packing_fraction = scenes[k].fraction, wide.tolerance = 0.999999;
+    OWNED jam_system *sys = created(&o);
+    assert_true(jam_contacts_from_geometry(sys, &wide, NULL) >= 0);
+    assert_int_equal(jam_prove(sys, JAM_RIGIDITY_COLLECTIVE, NULL, 0, &r), JAM_AMBIGUOUS);
+    assert_int_equal(r.theorem, JAM_THEOREM_NONE);
+  }
+}
+
 /* Mari-Kurchan shifts are no cell vectors. */
 CASE(shifted_pairs_are_refused_by_name) {
   jam_crunch_report r = {.struct_size = sizeof r};

@@ -9,8 +9,8 @@ HEADER = Path(__file__).parents[2] / "include/jam/jam.h"
 
 NO_CRUNCH = ("no-crunch", "packing-fraction", "porosity")  # what leaves the crunch out
 
-READING = "input frame box cell origin columns walls container non-additivity tile quiet wall-time json"
-STARTING = "seed model zeta shrink shrink-min output report log plot page checkpoint checkpoint-every resume"
+READING = "input frame box cell origin columns walls container non-additivity tile quiet json"
+STARTING = "wall-time seed model zeta shrink shrink-min output report log plot page checkpoint checkpoint-every resume"
 GROWING = (
     "n dim phi0 diameters-ratio sizes least-distance plant nve growth pressure packing-fraction porosity"
 )
@@ -29,10 +29,10 @@ VERBS = (
     Verb("crunch", ("input", "output"), "move the packing of a file to the jamming point",
            f"{READING} {STARTING} {TABLES} method strain lp duality-gap threads radii page-steps prove proof strict-proof"),
     Verb("shear", ("input", "output"), "shear the packing of a file quasi-statically",
-           f"{READING} shrink shrink-min output report log page contacts checkpoint checkpoint-every resume {SHEARING}"),
-    Verb("check", ("input",), "test whether the packing of a file is jammed, without moving spheres", f"{READING} prove proof strict-proof strict"),
+           f"{READING} wall-time shrink shrink-min output report log page contacts checkpoint checkpoint-every resume {SHEARING}"),
+    Verb("check", ("input",), "test whether the packing of a file is jammed, without moving spheres", f"{READING} wall-time prove proof strict-proof strict"),
     Verb("info", ("input",), "print what a file contains: cell, sizes, packing fraction, nearest pair", READING),
-    Verb("export", ("input", "output"), "write the packing of a file in other formats, its tables and its pore space", f"{READING} output scale density plot {TABLES} {PORES}"),
+    Verb("export", ("input", "output"), "write the packing of a file in other formats, its tables and its pore space", f"{READING} wall-time output scale density plot {TABLES} {PORES}"),
     Verb("page", ("input", "page"), "write a page that shows the packing of a file in a browser", f"{READING} page plot contact-gap"),
     Verb("ensemble", (), "make many packings in one folder: python3 -m jam ensemble --help", ""),
     Verb("search", (), "search the largest sum of radii from many starts: python3 -m jam search --help", ""),

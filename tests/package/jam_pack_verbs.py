@@ -253,6 +253,8 @@ class Verbs(InFolder):
             (2, "check takes no '--n'; it takes a FILE, ", "check", bad, "--n", 4),
             (2, "crunch takes no '--growth'", "crunch", bad, "--growth", "1e-2"),
             (2, "compress takes no '--contacts'", "compress", "--contacts", "c.csv"),
+            (2, "info takes no '--wall-time'", "info", bad, "--wall-time", 1),
+            (2, "page takes no '--wall-time'", "page", bad, self.dir / "a.html", "--wall-time", 1),
             (2, "crunch needs a FILE", "crunch"),
             (2, "info needs a FILE", "info"),
             (2, "page needs a FILE and the OUTPUT.html", "page", bad),

@@ -198,7 +198,7 @@ double Relaxation::stable_residual() const {
 }
 
 // Overlaps have the digits of the displacements, which the next list makes small, or in plain doubles of coordinates.
-bool Relaxation::at_rounding(double residual, double tolerance) const {
+Relaxation::Roundings Relaxation::roundings() const {
   double overlap = sums.overlap / static_cast<double>(sums.contacts);
   if (const double stiffens = 2.0 - state.energy().alpha(); stiffens > 0.0) {  // the least overlap rounds most
     const std::vector<double> all = state.contacts().overlap;
@@ -209,7 +209,20 @@ bool Relaxation::at_rounding(double residual, double tolerance) const {
   };
   const double always = state.precision() == JAM_SOFT_DOUBLE ? state.base().cell.side() : 0.0;
   const double moved = norm(state.displacement()) / std::sqrt(static_cast<double>(state.n()));
-  return tolerance < rounding(always) && residual < rounding(always + moved);
+  return {rounding(always), rounding(always + moved)};
+}
+
+bool Relaxation::at_rounding(double residual, double tolerance) const {
+  const Roundings r = roundings();
+  return tolerance < r.always && residual < r.now;
+}
+
+bool Relaxation::gives_digits(double residual, double tolerance) {
+  const Roundings r = roundings();
+  if (tolerance < r.always || !(tolerance < r.now && residual < r.now)) return false;
+  state.rebase();
+  evaluate();
+  return true;
 }
 
 bool Relaxation::yields() const {

@@ -171,12 +171,64 @@ double overlap_resolution(const Packing &p) {
          *std::min_element(p.diameter.begin(), p.diameter.end());
 }
 
+// Forces that are weak beside a pressure to come: they need no balance yet.
+static double weak_force(const SoftState &state, double pressure) {
+  return RelaxTuning::weak_part * pressure * scene_volume(state.base()) /
+         (state.diameter_mean() * static_cast<double>(state.n()));
+}
+
+// The cell takes in a strain along its own force, which is that of the pressure alone, and is fixed again.
+static void shrink(Relaxation &r, const FreeCell &cell) {
+  r.state.free_cell(cell);
+  r.evaluate();
+  std::vector<double> &u = r.state.displacement();
+  const auto strains = u.begin() + static_cast<std::ptrdiff_t>(r.state.spheres());
+  std::copy(r.force.begin() + static_cast<std::ptrdiff_t>(r.state.spheres()), r.force.end(), strains);
+  const double unit = largest_entry(std::vector<double>(strains, u.end())) * r.state.amplitude_unit();
+  std::for_each(strains, u.end(), [&](double &x) { x *= PressureTuning::shrink / unit; });
+  r.state.rebase();
+  r.state.free_cell({});
+  r.evaluate();
+}
+
+DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser) {
+  const SoftState &state = r.state;
+  const CancellableScope scope;
+  DescentEnd end = DescentEnd::balanced;
+  r.weak_force = weak_force(state, cell.pressure);
+  bool jams = r.sums.mean_force() > r.weak_force;
+  const double mean = state.diameter_mean();
+  r.weak_force = std::max(r.weak_force, state.energy().force(PressureTuning::first_overlap * mean, 1.0 / mean));
+  while (!jams && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps)) {
+    shrink(r, cell);
+    end = minimise(r, minimiser, RelaxTuning::before_strain, false);
+    jams = r.sums.mean_force() > r.weak_force;
+  }
+  r.weak_force = 0.0;
+  const double above = r.sums.virial / (state.dim() * scene_volume(state.base()) * cell.pressure);
+  const double falls =
+      std::round(math::log(above) / math::log(PressureTuning::overlaps_fall) / (state.energy().alpha() - 1.0));
+  for (double left = falls - 1.0; end == DescentEnd::balanced && left > 0.0; --left) {
+    FreeCell at = cell;
+    const double times = math::pow(above, left / falls);
+    at.pressure *= times;
+    for (double &load : at.beyond) load *= times;
+    r.state.free_cell(at);
+    r.evaluate();
+    end = minimise(r, minimiser, RelaxTuning::before_strain, false);
+  }
+  return end;
+}
+
 // The minimum with the cell free, from the minimum of the fixed one.
 static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, SoftResult &out) {
   const FreeCell cell =
       free_cell_of(r.state.dim(), o.strain, o.components, o.pressure, ~r.state.base().container.closed());
   try {
     const CancellableScope scope;  // ends before the state reached is measured: that must not be cancelled
+    DescentEnd end = DescentEnd::balanced;
+    if (cell.pressure > 0.0) end = approach_pressure(r, cell, o.minimiser);
+    if (end != DescentEnd::balanced) return out = measure(r.state, o.minimiser), end;
     r.weak_force = 0.0;
     r.state.free_cell(cell);
     r.evaluate();
@@ -201,9 +253,7 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   effort.packing_fraction = packing_fraction(start);
   effort.pressure = std::nan("");
   Relaxation r(state, effort);
-  // Forces that are weak beside the pressure to come need no balance yet.
-  r.weak_force = RelaxTuning::weak_part * o.pressure * scene_volume(start) /
-                 (state.diameter_mean() * static_cast<double>(state.n()));
+  r.weak_force = weak_force(state, o.pressure);
   const bool frees = o.strain != JAM_STRAIN_NONE;
   SoftResult out;
   DescentEnd end = frees ? minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false)

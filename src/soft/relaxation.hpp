@@ -53,6 +53,8 @@ class Relaxation {
   double stable_residual() const;
   // Whether rounding may be all of this residual, and keeps the tolerance from being met.
   bool at_rounding(double residual, double tolerance) const;
+  // Where rounding of the displacements keeps the tolerance from being met, they get another origin, and are small then.
+  bool gives_digits(double residual, double tolerance);
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
   // then, or where steps are long at every one.
   bool must_stop(DescentEnd &end, bool long_steps = false) const;
@@ -66,6 +68,13 @@ class Relaxation {
   Cell start;
   double weak_force = 0.0;  // mean force up to which a state counts as balanced
   double stiffness = 1.0;   // typical one of a contact, when there last was one
+
+ private:
+  // Residuals that rounding may leave: with displacements of 0, and with those of now.
+  struct Roundings {
+    double always, now;
+  };
+  Roundings roundings() const;
 };
 
 // Each minimises until max |F_i| of stable spheres over the mean force is below the tolerance.

@@ -155,10 +155,11 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
       end = DescentEnd::balanced;
       if (cell.count() > 0) {
         if (!near) end = minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false);
-        if (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && cell.pressure > 0.0)) {
+        if (!near && cell.pressure > 0.0 && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps))
+          end = approach_pressure(r, cell, o.minimiser);
+        if (end == DescentEnd::balanced) {
           state.free_cell(cell);
           r.evaluate();
-          end = DescentEnd::balanced;
         }
       }
       if (end == DescentEnd::balanced)

@@ -98,6 +98,15 @@ struct RelaxTuning {
   static constexpr double saddle_moves[] = {1e-6, 1e-4, 1e-2};
 };
 
+// ---- a cell at a pressure far from that of the start
+struct PressureTuning {
+  // An unjammed cell shrinks by this strain at a time until the mean force is that of one such overlap, in diameters.
+  static constexpr double shrink = 0.02, first_overlap = 1e-4;
+  // Overlaps fall by this factor from one pressure to the next. At once, contacts part and meet again without end: from
+  // 1e-2 to 1e-7 that takes 20 times as many evaluations, or all of them (N = 64, alpha = 2).
+  static constexpr double overlaps_fall = 100.0;
+};
+
 // ---- decompression
 struct DecompressTuning {
   // A step that failed is tried again with the square root of its factor, up to this one.

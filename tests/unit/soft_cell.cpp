@@ -118,6 +118,29 @@ CASE(statuses) {
   }
 }
 
+// Starts far below and far above a pressure: a gas, overlapping points, and the minimum at another pressure. A descent
+// at once ends by its limit of evaluations.
+CASE(pressures_far_from_the_start) {
+  for (const int32_t m : {JAM_MINIMISER_NEWTON, JAM_MINIMISER_LBFGS})
+    for (const double alpha : {2.0, 2.5})
+      for (const double fraction : {0.05, 0.9}) {
+        jam_relax_options o = options(m, JAM_STRAIN_ALL, 1e-2);
+        o.alpha = alpha;
+        const Packing start = random_packing(2, 60, fraction, 9);
+        const SoftResult hard = relaxed(start, o);
+        o.pressure = 1e-7;
+        for (const Packing *p : {&start, &hard.packing}) {
+          const SoftResult a = relaxed(*p, o);
+          assert_int_equal(a.status, JAM_OK);
+          assert_true(std::fabs(a.report.pressure / 1e-7 - 1.0) < 1e-11 && a.report.excess_contacts >= 0);
+        }
+      }
+  jam_relax_options o = options(JAM_MINIMISER_NEWTON, JAM_STRAIN_EDGES_VOLUME, 1e-4);
+  o.components = 1 << 3;  // (1, 1): a gas between pistons
+  const Cell piston = relaxed(random_packing(2, 60, 0.3, 9), o).packing.cell;
+  assert_true(std::fabs(piston.edge(0) - 1.0) < 1e-14 && piston.edge(1) < 0.5);
+}
+
 // Cut short anywhere, before and after the cell is free, the state is valid and a second call ends as one would.
 CASE(cut_short) {
   const Packing start = random_packing(2, 60, 0.95, 7);

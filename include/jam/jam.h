@@ -131,7 +131,7 @@ typedef enum jam_status_code {
   JAM_OK = 0,              /* done: the target was reached */
   JAM_CANCELLED = 1,       /* jam_cancel or a callback requested a stop */
   JAM_LIMIT = 2,           /* a limit on work or time was reached before the target */
-  JAM_NOT_CONVERGED = 3,   /* the method made no more progress; the state is the best so far */
+  JAM_NOT_CONVERGED = 3,   /* the method made no more progress; the state reached is kept */
   JAM_PRECISION = 4,       /* the target lies beyond what the numbers can resolve */
   JAM_NOT_JAMMED = 5,      /* there is no jammed network to work on */
   JAM_AMBIGUOUS = 6,       /* the answer is not unique; the text says which was returned */
@@ -998,7 +998,7 @@ typedef struct jam_radii_options {
   int64_t max_steps; /* of Newton's method, >= 1, default 100000 */
   double wall_time;  /* limit of the call */
   int64_t moments;   /* 0, the default: the sum; 1 .. 4: so many power sums keep their ratios, of these exponents: */
-  double exponent_1, exponent_2, exponent_3, exponent_4; /* |exponent| in [1e-3, 8], default 1; 2; 3; 4 */
+  double exponent_1, exponent_2, exponent_3, exponent_4; /* |exponent| in [0.01, 8], default 1; 2; 3; 4 */
   int32_t strain;                                        /* @enum jam_free_strain, up to FREE, default NONE */
   int32_t reserved;
 } jam_radii_options;

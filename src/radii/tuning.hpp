@@ -21,7 +21,7 @@ struct RadiiTuning {
   static constexpr int longer = 4;             // times that a step may double
   static constexpr double ridge = 1e-13;       // on the diagonal, over its mean: holds translations
   // ---- moments
-  static constexpr double least_exponent = 1e-3, most_exponent = 8.0;
+  static constexpr double least_exponent = 0.01, most_exponent = 8.0;
   static constexpr double least_radius = 1e-3, least_ratio = 2e-4;  // of the smallest radius at the start; the largest
   static constexpr double least_freedom = 1e-7;   // share of a moment's gradient that others do not have
   static constexpr double kept = 4e-15;           // relative error of moments after a step

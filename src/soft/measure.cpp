@@ -209,7 +209,17 @@ Relaxation::Roundings Relaxation::roundings() const {
   };
   const double always = state.precision() == JAM_SOFT_DOUBLE ? state.base().cell.side() : 0.0;
   const double moved = norm(state.displacement()) / std::sqrt(static_cast<double>(state.n()));
-  return {rounding(always), rounding(always + moved)};
+  return {rounding(always), rounding(always + moved), rounding(state.base().cell.side())};
+}
+
+bool Relaxation::open() const {
+  const double none = std::numeric_limits<double>::epsilon() * state.base().cell.side();
+  return sums.overlap <= RelaxTuning::roundings * none * static_cast<double>(sums.contacts) &&
+         !(state.cell().pressure > 0.0);
+}
+
+bool Relaxation::rounded(double tolerance) const {
+  return open() || (sums.contacts > 0 && stable_residual() < std::max(tolerance, roundings().coordinates));
 }
 
 bool Relaxation::at_rounding(double residual, double tolerance) const {

@@ -53,7 +53,11 @@ class Relaxation {
   double stable_residual() const;
   // Whether rounding may be all of this residual, and keeps the tolerance from being met.
   bool at_rounding(double residual, double tolerance) const;
-  // Where rounding of the displacements keeps the tolerance from being met, they get another origin, and are small then.
+  // Whether the overlaps are what rounding of the coordinates makes of none, at no pressure.
+  bool open() const;
+  // Whether this is a minimum to the tolerance, or has no overlaps, but for the rounding of coordinates.
+  bool rounded(double tolerance) const;
+  // Where rounding of the displacements keeps the tolerance from being met, they get another origin and are small.
   bool gives_digits(double residual, double tolerance);
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
   // then, or where steps are long at every one.
@@ -70,9 +74,9 @@ class Relaxation {
   double stiffness = 1.0;   // typical one of a contact, when there last was one
 
  private:
-  // Residuals that rounding may leave: with displacements of 0, and with those of now.
+  // Residuals that rounding may leave: with displacements of 0, with those of now, and with coordinates in doubles.
   struct Roundings {
-    double always, now;
+    double always, now, coordinates;
   };
   Roundings roundings() const;
 };

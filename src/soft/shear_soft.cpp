@@ -150,7 +150,6 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
       SoftState state = first_state(p, PairEnergy(o.alpha, o.scale), o.precision);
       effort.max_evaluations = effort.evaluations + o.max_evaluations;
       Relaxation r(state, effort);
-      // A start that is a minimum stays as it is, to the last bit.
       const bool near = !first || r.stable_residual() < RelaxTuning::before_strain;
       end = DescentEnd::balanced;
       if (cell.count() > 0) {
@@ -162,7 +161,10 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
           r.evaluate();
         }
       }
-      if (end == DescentEnd::balanced)
+      // A start that is a minimum stays as it is, to the last bit: a step of the call before would begin with it.
+      if (first && end == DescentEnd::balanced && r.rounded(o.force_tolerance))
+        end = r.open() ? DescentEnd::no_overlaps : end, out.at = measure(state, o.minimiser), out.at.packing = p;
+      else if (end == DescentEnd::balanced)
         end = minimise_and_measure(r, o.minimiser, o.force_tolerance, near || cell.count() > 0, out.at);
       else
         out.at = measure(state, o.minimiser);

@@ -82,6 +82,12 @@ class Network(unittest.TestCase):
         force, basis, _ = s.stress_states()
         np.testing.assert_allclose(force, s.forces, atol=1e-8)
         self.assertEqual(basis.shape, (1, r.contacts))
+        loose = jam.System.random(5, 2, 1, packing_fraction=0.15)
+        loose.compress(pressure=100.0)
+        loose.contacts_from_geometry(tolerance=0.01)  # a network without a state of self-stress
+        force, basis, residual = loose.stress_states()
+        contacts = loose.report.contacts
+        self.assertEqual((force.tolist(), basis.shape, residual), ([0.0] * contacts, (0, contacts), 0.0))
         comparison, moved = s.compare(s.copy())
         self.assertEqual((comparison.overlap, np.abs(moved).max()), (1.0, 0.0))
         other = jam.System.random(s.n, s.dim, 9, packing_fraction=0.3)

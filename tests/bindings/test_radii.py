@@ -123,9 +123,9 @@ class Refused(unittest.TestCase):
         six = jam.System.random(n=6, dim=2, walls="xy", seed=1, diameters=np.random.default_rng(1).uniform(0.6, 1.4, 6))
         two = jam.System.random(n=6, dim=2, walls="xy", seed=1, diameters=[1, 1, 1, 1.4, 1.4, 1.4])
         for text, system, given, options in (
-            ("exponent_1 is 2 and exponent_3 2: nearer than 0.001 they count as one moment twice", six, (), dict(moments=(2, 1, 2))),
+            ("exponent_1 is 2 and exponent_3 2: nearer than 0.01 they count as one moment twice", six, (), dict(moments=(2, 1, 2))),
             ("exponent_2 is 0, .* the number of spheres", six, (), dict(moments=(1, 0))),
-            ("exponent_1 is 9, its size must be 0.001 to 8", six, (), dict(moments=[9])),
+            ("exponent_1 is 9, its size must be 0.01 to 8", six, (), dict(moments=[9])),
             ("weights and moments", six, (np.ones(6),), dict(moments=(1, 2))),
             ("radius_min 0.5 and radius_max inf", six, (), dict(moments=(1, 2), radius_min=0.5)),
             ("not between radius_min", six, (), dict(moments=(1, 2), radius_max=1e-3)),

@@ -370,6 +370,23 @@ class Shear(unittest.TestCase):
         parts.shear((steps - done) * step, step=step)
         self.assertTrue(np.array_equal(whole.positions, parts.positions))
 
+    def test_a_call_continues_another_to_the_same_bits(self):
+        """Minima whose rounded positions are off the tolerance, free cells whose vectors are rounded, and no overlaps."""
+        for n, phi, options in (
+            (16, 0.9, {"strain": "volume", "pressure": 1e-2}),
+            (24, 0.9, {"strain": "all", "pressure": 1e-4, "alpha": 2.5}),
+            (16, 0.812, {"scale": "absolute", "alpha": 3.0}),
+            (24, 0.86, {}),
+        ):
+            for seed in (1, 2, 3):
+                whole = jam.System.random(n, 2, seed, diameters=[1.0, 1.4] * (n // 2), packing_fraction=phi, overlap="allow")
+                parts = whole.copy()
+                whole.shear(0.02, step=2e-3, **options)
+                parts.shear(0.01, step=2e-3, **options)
+                parts.shear(0.01, step=2e-3, **options)
+                self.assertTrue(np.array_equal(whole.positions, parts.positions))
+                self.assertTrue(np.array_equal(whole.cell, parts.cell))
+
     def test_no_cell_becomes_narrower_than_a_sphere(self):
         s = soft(24, phi=0.95, seed=5)
         report = s.shear(2.0, step=0.02, mode=[[1, 0], [0, -1]])

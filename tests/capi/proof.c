@@ -124,8 +124,8 @@ CASE(the_text_of_a_proof_is_short) {
   assert_string_equal(jam_proof_text(0, 8, 0.0, 0.0, 0.0), "");
 }
 
-/* Few spheres with contacts that lie a diameter apart: a step of Newton's method has no bound there, and no pair that an
-   LP may move is near. Nothing is proved, and that is the answer. */
+/* Few spheres with contacts that lie a diameter apart: a step of Newton's method has no bound there, and no pair is so
+   near that an LP may close it. Nothing is proved, and that is the answer. */
 CASE(contacts_that_are_wide_open_prove_nothing) {
   static const struct {
     int32_t container, n;

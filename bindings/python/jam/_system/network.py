@@ -208,7 +208,7 @@ class Network(Analysis):
         with self._reporting(progress):
             status, _, m = raw.jam_stress_states(handle, None, None)
             not_cancelled(status)
-            force, basis = unknown_array(contacts if m else 0), unknown_array((m, contacts))
+            force, basis = unknown_array(contacts), unknown_array((m, contacts))
             status, residual, filled = raw.jam_stress_states(handle, force, basis.reshape(-1))
             self._note(not_cancelled(status))
             same((filled, self.report.contacts), (m, contacts))

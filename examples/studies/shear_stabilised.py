@@ -41,7 +41,10 @@ def sample(d, n, seed, pressure, strain):
     packing = jam.System.random(n=n, dim=d, seed=seed, packing_fraction=START[d], overlap="allow", diameters=sizes)
     # With this scale the stiffness of a contact is 1; the box has side 1. So pressures go with the diameter to 2 - d.
     pressure *= float(np.mean(packing.diameters)) ** (2 - d)
-    report = packing.relax(strain=strain, pressure=pressure, scale="absolute", max_evaluations=50000)
+    try:
+        report = packing.relax(strain=strain, pressure=pressure, scale="absolute", max_evaluations=50000)
+    except jam.errors.OverlapError:  # pressed so far that a sphere would reach across the cell
+        return None
     if report.status != 0 or report.contacts == 0:
         return None
     return least_shear_modulus(packing, report.pressure)

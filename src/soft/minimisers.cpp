@@ -227,11 +227,12 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
 
 DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &convex) {
   SoftHessian hessian;
-  double target = NewtonTuning::settled;
+  const double least = NewtonTuning::next_target * tolerance;  // of what contacts that change may leave above it
+  double target = std::max(NewtonTuning::settled, tolerance);
   for (bool descend = !near_minimum;; descend = true) {
     if (descend) {
       convex = false;
-      const DescentEnd end = lbfgs(r, std::max(target, tolerance));
+      const DescentEnd end = lbfgs(r, target);
       if (end != DescentEnd::balanced) return end;
       centre_rattlers(r.state);
       r.evaluate();
@@ -241,8 +242,8 @@ DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &conv
     const DescentEnd end = newton(r, tolerance, hessian, 0.0, convex);
     if (end != DescentEnd::stalled) return end;
     if (!descend) continue;
-    if (target <= tolerance) return DescentEnd::stalled;
-    target = NewtonTuning::next_target * std::min(target, r.stable_residual());
+    if (target <= least) return DescentEnd::stalled;
+    target = std::max(least, NewtonTuning::next_target * std::min(target, r.stable_residual()));
   }
 }
 

@@ -102,6 +102,15 @@ class Tolerance(unittest.TestCase):
                 self.assertTrue(r.converged, str(r))
                 self.assertLess(r.force_residual, tolerance)
 
+    def test_a_descent_goes_on_below_a_loose_tolerance(self):
+        """Free cells whose contacts change after the descent, so that neither it nor Newton's method met the tolerance."""
+        for n, pressure, seed, tolerance in ((128, 1e-6, 15, 0.1), (256, 1e-4, 14, 0.1), (256, 1e-5, 1, 1e-3)):
+            s = jam.System.random(n, seed=seed, packing_fraction=0.7, overlap="allow")
+            bulk = pressure / s.diameters[0] ** 3
+            s.relax(strain="all", pressure=1.5 * bulk, force_tolerance=1e-6)
+            r = s.relax(strain="all", pressure=bulk, force_tolerance=tolerance)
+            self.assertTrue(r.converged, str(r))
+
 
 class Known(unittest.TestCase):
     def test_two_disks_and_two_balls_rest_on_a_diameter(self):

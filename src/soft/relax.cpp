@@ -5,7 +5,9 @@
 
 #include "core/call_scope.hpp"
 #include "core/limits.hpp"
+#include "core/math.hpp"
 #include "core/pair_rule.hpp"
+#include "linalg/dot.hpp"
 #include "soft/decompression.hpp"
 #include "soft/tuning.hpp"
 

@@ -32,11 +32,4 @@ bool has_instruction_set(InstructionSet set) {
   return set == InstructionSet::best || set == InstructionSet::portable;
 }
 
-InstructionSet resolved(InstructionSet set) {
-  if (set != InstructionSet::best) return set;
-  return has_instruction_set(InstructionSet::avx512) ? InstructionSet::avx512
-         : has_instruction_set(InstructionSet::avx2) ? InstructionSet::avx2
-                                                     : InstructionSet::portable;
-}
-
 }  // namespace jam::inside

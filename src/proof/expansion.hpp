@@ -85,7 +85,6 @@ constexpr double half_ulp = 0x1p-53;
 inline double up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 inline double down(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
 inline double add_up(double a, double b) { return up(a + b); }
-inline double sub_up(double a, double b) { return up(a - b); }
 inline double sub_down(double a, double b) { return down(a - b); }
 inline double mul_up(double a, double b) { return up(a * b); }
 inline double mul_down(double a, double b) { return down(a * b); }

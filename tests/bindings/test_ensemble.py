@@ -177,6 +177,8 @@ class Campaigns(InFolder):
         self.assertEqual((record["seed"], record["status"]), (-1, "damaged_record"))
         self.assertIn(str(e.files.failure(e.name(5))), record["text"])
         kept = self.folder / "protocols" / f"{e.id}.json"
+        kept.write_text(kept.read_text().replace('"diameters"', '"lattice": null, "diameters"'))  # as older versions wrote it
+        self.assertEqual(Ensemble(self.folder).protocol, e.protocol)
         for text in (kept.read_text().replace('"n": 24', '"n": 25'), "{", "[]"):
             kept.write_text(text)
             with self.assertRaisesRegex(StoreError, kept.name):

@@ -4,18 +4,8 @@ import unittest
 import numpy as np
 
 import jam
-from jam.ensemble import Ensemble, begin, complete
+from jam.ensemble import Ensemble
 from packings import SMALL, InFolder
-
-
-class Protocols(unittest.TestCase):
-    def test_sizes_on_a_lattice_are_at_other_sites_for_each_seed(self):
-        for law in ({"law": "bidisperse"}, {"law": "lognormal", "draw": "quantiles"}):
-            start = complete(dict(n=32, dim=3, lattice="fcc", packing_fraction=0.3, diameters=law))
-            one, again, other = (begin(start, seed).diameters for seed in (1, 1, 2))
-            np.testing.assert_array_equal(one, again)
-            self.assertFalse(np.array_equal(one, other))
-            np.testing.assert_allclose(np.sort(one), np.sort(other), rtol=1e-15)
 
 
 class Entries(InFolder):

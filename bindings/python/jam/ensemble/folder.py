@@ -220,6 +220,7 @@ def _counted(entries: list[Entry], damaged: dict[Path, str]) -> Content:
 def _protocol(path: Path, name: str, text: str | None = None) -> dict[str, Any]:
     with refusing(path):
         found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8") if text is None else text)
+        found["start"].pop("lattice", None)  # of older folders, where it is None
         if identity(found) != name:
             raise StoreError(
                 22,

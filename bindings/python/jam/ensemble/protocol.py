@@ -7,14 +7,12 @@ import copy
 import hashlib
 import inspect
 import json
-import math
 from contextlib import contextmanager, suppress
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 
 from .. import errors
-from .._api.arrays import Array
 from .._api.documented import changing, measuring
 from .._api.generated import GROWTH_STAGES, OPTIONS, StatusCode
 from .._api.given import cell_of, enclosure_of
@@ -24,8 +22,6 @@ from .._formats.write_packing import ALGORITHM
 from .._system.verbs import stage_of
 from ..system import System
 
-#: What a protocol may say of the cell and its walls, and what it says by default.
-SCENE = {"cell": None, "walls": None, "container": "brick"}
 #: Laws of diameters and what they take by default; besides these, every law of jam.sizes.
 LAWS = {"bidisperse": {"ratio": 1.4, "share": 0.5}, "lognormal": {"deviation": 0.1}}
 ANALYSIS: dict[str, dict[str, Any]] = {"gaps": {"h_max": 0.1, "stable_only": 1}, "crystal_score": {}}
@@ -76,8 +72,7 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
 
 def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     rest: dict[str, Any] = {"n": 1024, "dim": 3, **given}
-    lattice, sizes = rest.pop("lattice", None), rest.pop("diameters", None)
-    cell, walls, container = (rest.pop(key, None) for key in SCENE)
+    sizes, cell, walls, container = (rest.pop(key, None) for key in ("diameters", "cell", "walls", "container"))
     rest["box"], vectors = cell_of(rest.get("box"), cell, rest["dim"])
     kind, flat = enclosure_of(container, walls, rest["dim"])
     made = _options("jam_create_options", {**rest, "container": kind, "walls": flat}, ("seed",))  # the packing's own
@@ -89,14 +84,8 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
         raise ProtocolError("overlap is 'refuse' (hard spheres) or 'allow' (soft ones)")
     if made["n"] < 1:
         raise ProtocolError(f"n = {made['n']} must be >= 1")
-    if lattice not in (None, "fcc"):
-        raise ProtocolError(f"lattice {lattice!r} is none of fcc")
-    if lattice and (made["dim"] != 3 or round((made["n"] / 4) ** (1 / 3)) ** 3 * 4 != made["n"]):
-        raise ProtocolError(f"an fcc lattice needs dim 3 and n = 4 m^3, not {made['dim']} and {made['n']}")
-    if lattice and any(made[key] != plain for key, plain in SCENE.items()):
-        raise ProtocolError("an fcc lattice fills a cube without walls: leave out cell, walls and container")
     diameters = None if sizes is None else _diameters(sizes, made["n"], made["dim"])
-    return {**made, "diameters": diameters, "lattice": lattice}
+    return {**made, "diameters": diameters}
 
 
 def _check_room(start: Mapping[str, Any]) -> None:
@@ -136,7 +125,7 @@ def _check_calls(made: Mapping[str, Any]) -> None:
     """Calls that the scene or model refuses, such as a free cell between walls: asked of two small spheres that have no time."""
     start = made["start"]
     with _entry("start"):
-        two = begin({"start": {**start, "n": 2, "packing_fraction": 1e-12, "diameters": None, "lattice": None}}, 1)
+        two = begin({"start": {**start, "n": 2, "packing_fraction": 1e-12, "diameters": None}}, 1)
     calls = [(f"stages[{k}]", stage) for k, stage in enumerate(made["stages"])]
     if made["crunch"] is not None:
         calls.append(("crunch", {"verb": "crunch", **made["crunch"]}))
@@ -247,32 +236,13 @@ def sizes_of_law(law: Any, n: int, dim: int, seed: int) -> Any:
     return draw_sizes(str(law["law"]), n, dim=dim, **fields)
 
 
-def _fcc(n: int, box: float) -> Array:
-    m = round((n / 4) ** (1 / 3))
-    corners = np.stack(np.meshgrid(*[np.arange(m)] * 3, indexing="ij"), axis=-1).reshape(-1, 1, 3)
-    basis = np.array([[0, 0, 0], [0, 1, 1], [1, 0, 1], [1, 1, 0]]) / 2.0
-    return ((corners + basis + 0.25) * (box / m)).reshape(-1, 3)
-
-
 def begin(protocol: Mapping[str, Any], seed: int) -> System:
-    """The start of a complete protocol. On a lattice the diameters shrink by one factor until no pair overlaps."""
+    """The start of a complete protocol."""
     given = dict(protocol["start"])
-    lattice, law = given.pop("lattice"), given.pop("diameters")
-    sizes = sizes_of_law(law, given["n"], given["dim"], seed)
-    if lattice is None:
-        if given.get("cell") is not None:
-            del given["box"]
-        return System.random(seed=seed, diameters=sizes, **given)
-    overlap = "allow" if given.pop("overlap", "refuse") == "allow" else "shrink"
-    n, box, dim, phi = given.pop("n"), given.pop("box"), given.pop("dim"), given.pop("packing_fraction")
-    sizes = np.ones(n) if sizes is None else np.array(sizes)
-    if isinstance(law, dict) and (law["law"] == "bidisperse" or law.get("draw") == "quantiles"):
-        # on other sites for each seed: sizes that ascend would part small from large
-        keys = draw_sizes("uniform", n, low=1.0, high=2.0, draw="random", seed=seed)
-        sizes = sizes[np.argsort(keys, kind="stable")]
-    unit = math.pi ** (dim / 2) / math.gamma(dim / 2 + 1) * (sizes / 2) ** dim
-    sizes = sizes * (phi * box**dim / unit.sum()) ** (1 / dim)
-    return System.from_arrays(_fcc(n, box), sizes, box, seed=seed, overlap=overlap, **given)
+    if given.get("cell") is not None:
+        del given["box"]
+    sizes = sizes_of_law(given.pop("diameters"), given["n"], given["dim"], seed)
+    return System.random(seed=seed, diameters=sizes, **given)
 
 
 def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]]:

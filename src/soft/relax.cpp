@@ -179,18 +179,20 @@ static double weak_force(const SoftState &state, double pressure) {
          (state.diameter_mean() * static_cast<double>(state.n()));
 }
 
-// The cell takes in a strain along its own force, which is that of the pressure alone, and is fixed again.
-static void shrink(Relaxation &r, const FreeCell &cell) {
+// The cell takes in a strain along its own force, which is that of the pressure alone, and is fixed again. False where
+// the pressure does no work on the strains that are free.
+static bool shrink(Relaxation &r, const FreeCell &cell) {
   r.state.free_cell(cell);
   r.evaluate();
   std::vector<double> &u = r.state.displacement();
   const auto strains = u.begin() + static_cast<std::ptrdiff_t>(r.state.spheres());
   std::copy(r.force.begin() + static_cast<std::ptrdiff_t>(r.state.spheres()), r.force.end(), strains);
   const double unit = largest_entry(std::vector<double>(strains, u.end())) * r.state.amplitude_unit();
-  std::for_each(strains, u.end(), [&](double &x) { x *= PressureTuning::shrink / unit; });
+  std::for_each(strains, u.end(), [&](double &x) { x *= unit > 0.0 ? PressureTuning::shrink / unit : 0.0; });
   r.state.rebase();
   r.state.free_cell({});
   r.evaluate();
+  return unit > 0.0;
 }
 
 DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser) {
@@ -202,7 +204,7 @@ DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimi
   const double mean = state.diameter_mean();
   r.weak_force = std::max(r.weak_force, state.energy().force(PressureTuning::first_overlap * mean, 1.0 / mean));
   while (!jams && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps)) {
-    shrink(r, cell);
+    if (!shrink(r, cell)) return DescentEnd::no_overlaps;
     end = minimise(r, minimiser, RelaxTuning::before_strain, false);
     jams = r.sums.mean_force() > r.weak_force;
   }

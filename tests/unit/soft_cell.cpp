@@ -139,6 +139,8 @@ CASE(pressures_far_from_the_start) {
   o.components = 1 << 3;  // (1, 1): a gas between pistons
   const Cell piston = relaxed(random_packing(2, 60, 0.3, 9), o).packing.cell;
   assert_true(std::fabs(piston.edge(0) - 1.0) < 1e-14 && piston.edge(1) < 0.5);
+  o.strain = JAM_STRAIN_ALL, o.components = 1 << 1;  // (0, 1): a tilt alone, on which no pressure works
+  assert_int_equal(relaxed(random_packing(2, 60, 0.3, 9), o).status, JAM_NOT_JAMMED);
 }
 
 // Cut short anywhere, before and after the cell is free, the state is valid and a second call ends as one would.

@@ -202,7 +202,7 @@ DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimi
   r.weak_force = weak_force(state, cell.pressure);
   bool jams = r.sums.mean_force() > r.weak_force;
   const double mean = state.diameter_mean();
-  r.weak_force = std::max(r.weak_force, state.energy().force(PressureTuning::first_overlap * mean, 1.0 / mean));
+  r.weak_force = state.energy().force(PressureTuning::first_overlap * mean, 1.0 / mean);
   while (!jams && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps)) {
     if (!shrink(r, cell)) return DescentEnd::no_overlaps;
     end = minimise(r, minimiser, RelaxTuning::before_strain, false);

@@ -63,9 +63,9 @@ SoftResult measure(SoftState &state, int32_t minimiser);
 SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision);
 // Minimises by a jam_minimiser. near_minimum, convex: as of hybrid().
 DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, bool *convex = nullptr);
-// Brings the minimum of the fixed cell near the pressure of a free one, where that is far off: it shrinks where nothing
-// jams, then expands from pressure to pressure. Spheres and cell balance roughly.
-DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser);
+// Brings the minimum of the fixed cell, which ended as `fixed`, near the pressure of a free one where that is far off:
+// a cell without overlaps shrinks, then expands from pressure to pressure. Spheres and cell balance roughly.
+DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser, DescentEnd fixed);
 // The same, and measures what is handed out: balanced means that its residuals are below the tolerance.
 DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, SoftResult &out);
 // Status and stop reason of a minimum.

@@ -175,8 +175,8 @@ void centre_rattlers(SoftState &state) {
 double Relaxation::residual() const {
   if (sums.coincident > 0) return std::numeric_limits<double>::infinity();
   const double mean = sums.mean_force();
-  if (mean > weak_force) return std::max(largest(force, state.n(), state.dim(), nullptr) / mean, sums.stress);
-  return at_rest() || weak_force > 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+  if (mean > 0.0) return std::max(largest(force, state.n(), state.dim(), nullptr) / mean, sums.stress);
+  return at_rest() ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
 double Relaxation::stable_residual() const {
@@ -193,7 +193,7 @@ double Relaxation::stable_residual() const {
     sum += contacts.force[k];
     ++count;
   }
-  if (count == 0 || sums.mean_force() <= weak_force) return residual();
+  if (count == 0) return residual();
   return std::max(largest(force, state.n(), state.dim(), &stable) * static_cast<double>(count) / sum, sums.stress);
 }
 
@@ -227,7 +227,7 @@ bool Relaxation::at_rounding(double residual, double tolerance) const {
   return tolerance < r.always && residual < r.now;
 }
 
-bool Relaxation::gives_digits(double residual, double tolerance) {
+bool Relaxation::renew_origin(double residual, double tolerance) {
   const Roundings r = roundings();
   if (tolerance < r.always || !(tolerance < r.now && residual < r.now)) return false;
   state.rebase();

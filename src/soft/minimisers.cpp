@@ -27,7 +27,7 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
   for (int step = 0; step < NewtonTuning::most_steps; ++step) {
     if (r.at_rest()) return DescentEnd::no_overlaps;
     double now = r.stable_residual();
-    if (r.gives_digits(now, tolerance)) now = r.stable_residual(), fresh = false;
+    if (r.renew_origin(now, tolerance)) now = r.stable_residual(), fresh = false;
     const SoftContacts contacts = state.contacts();
     const std::vector<char> on = stable_contacts(state, contacts);
     if (now < tolerance && r.residual() < std::max(tolerance, NewtonTuning::rattlers_balanced))
@@ -108,7 +108,7 @@ bool descent_ends(Relaxation &r, int64_t count, double tolerance, LeastResidual 
     if (now < tolerance) return end = DescentEnd::balanced, true;
     if (now < 0.5 * least.value)
       least = {now, count};
-    else if (r.gives_digits(now, tolerance))
+    else if (r.renew_origin(now, tolerance))
       return false;
     else if (count > 2 * least.count + RelaxTuning::patience && r.at_rounding(now, tolerance))
       return end = DescentEnd::rounding, true;

@@ -173,12 +173,6 @@ double overlap_resolution(const Packing &p) {
          *std::min_element(p.diameter.begin(), p.diameter.end());
 }
 
-// Forces that are weak beside a pressure to come: they need no balance yet.
-static double weak_force(const SoftState &state, double pressure) {
-  return RelaxTuning::weak_part * pressure * scene_volume(state.base()) /
-         (state.diameter_mean() * static_cast<double>(state.n()));
-}
-
 // The cell takes in a strain along its own force, which is that of the pressure alone, and is fixed again. False where
 // the pressure does no work on the strains that are free.
 static bool shrink(Relaxation &r, const FreeCell &cell) {
@@ -195,20 +189,13 @@ static bool shrink(Relaxation &r, const FreeCell &cell) {
   return unit > 0.0;
 }
 
-DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser) {
+DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser, DescentEnd end) {
   const SoftState &state = r.state;
   const CancellableScope scope;
-  DescentEnd end = DescentEnd::balanced;
-  r.weak_force = weak_force(state, cell.pressure);
-  bool jams = r.sums.mean_force() > r.weak_force;
-  const double mean = state.diameter_mean();
-  r.weak_force = state.energy().force(PressureTuning::first_overlap * mean, 1.0 / mean);
-  while (!jams && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps)) {
-    if (!shrink(r, cell)) return DescentEnd::no_overlaps;
+  while (end == DescentEnd::no_overlaps) {
+    if (!shrink(r, cell)) return end;
     end = minimise(r, minimiser, RelaxTuning::before_strain, false);
-    jams = r.sums.mean_force() > r.weak_force;
   }
-  r.weak_force = 0.0;
   const double above = r.sums.virial / (state.dim() * scene_volume(state.base()) * cell.pressure);
   const double falls =
       std::round(math::log(above) / math::log(PressureTuning::overlaps_fall) / (state.energy().alpha() - 1.0));
@@ -225,15 +212,13 @@ DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimi
 }
 
 // The minimum with the cell free, from the minimum of the fixed one.
-static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, SoftResult &out) {
+static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, DescentEnd end, SoftResult &out) {
   const FreeCell cell =
       free_cell_of(r.state.dim(), o.strain, o.components, o.pressure, ~r.state.base().container.closed());
   try {
     const CancellableScope scope;  // ends before the state reached is measured: that must not be cancelled
-    DescentEnd end = DescentEnd::balanced;
-    if (cell.pressure > 0.0) end = approach_pressure(r, cell, o.minimiser);
+    if (cell.pressure > 0.0) end = approach_pressure(r, cell, o.minimiser, end);
     if (end != DescentEnd::balanced) return out = measure(r.state, o.minimiser), end;
-    r.weak_force = 0.0;
     r.state.free_cell(cell);
     r.evaluate();
   } catch (const Cancelled &) {  // in a search for pairs
@@ -257,14 +242,13 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   effort.packing_fraction = packing_fraction(start);
   effort.pressure = std::nan("");
   Relaxation r(state, effort);
-  r.weak_force = weak_force(state, o.pressure);
   const bool frees = o.strain != JAM_STRAIN_NONE;
   SoftResult out;
   DescentEnd end = frees ? minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false)
                          : minimise_and_measure(r, o.minimiser, o.force_tolerance, false, out);
   // A pressure brings overlaps back where the fixed cell has none.
   if (frees && (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && o.pressure > 0.0)))
-    end = relax_cell(r, o, out);
+    end = relax_cell(r, o, end, out);
   else if (frees)
     out = measure(state, o.minimiser);
   out.status = status_of(end, monitor, out.report.stop_reason);

@@ -57,8 +57,8 @@ class Relaxation {
   bool open() const;
   // Whether this is a minimum to the tolerance, or has no overlaps, but for the rounding of coordinates.
   bool rounded(double tolerance) const;
-  // Where rounding of the displacements keeps the tolerance from being met, they get another origin and are small.
-  bool gives_digits(double residual, double tolerance);
+  // Gives displacements another origin, so that they are small, if their rounding keeps the tolerance from being met.
+  bool renew_origin(double residual, double tolerance);
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
   // then, or where steps are long at every one.
   bool must_stop(DescentEnd &end, bool long_steps = false) const;
@@ -70,8 +70,7 @@ class Relaxation {
   std::vector<double> force;  // (blocks, dim)
   SoftSums sums;
   Cell start;
-  double weak_force = 0.0;  // mean force up to which a state counts as balanced
-  double stiffness = 1.0;   // typical one of a contact, when there last was one
+  double stiffness = 1.0;  // typical one of a contact, when there last was one
 
  private:
   // Residuals that rounding may leave: with displacements of 0, with those of now, and with coordinates in doubles.

@@ -150,19 +150,23 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
       SoftState state = first_state(p, PairEnergy(o.alpha, o.scale), o.precision);
       effort.max_evaluations = effort.evaluations + o.max_evaluations;
       Relaxation r(state, effort);
+      const int64_t begun = effort.evaluations;
       const bool near = !first || r.stable_residual() < RelaxTuning::before_strain;
+      bool untouched = true;
       end = DescentEnd::balanced;
       if (cell.count() > 0) {
         if (!near) end = minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false);
-        if (!near && cell.pressure > 0.0 && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps))
-          end = approach_pressure(r, cell, o.minimiser);
+        if (near && r.open()) end = DescentEnd::no_overlaps;
+        if (first && cell.pressure > 0.0 && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps))
+          end = approach_pressure(r, cell, o.minimiser, end);
+        untouched = effort.evaluations == begun;
         if (end == DescentEnd::balanced) {
           state.free_cell(cell);
           r.evaluate();
         }
       }
       // A start that is a minimum stays as it is, to the last bit: a step of the call before would begin with it.
-      if (first && end == DescentEnd::balanced && r.rounded(o.force_tolerance))
+      if (first && untouched && end == DescentEnd::balanced && r.rounded(o.force_tolerance))
         end = r.open() ? DescentEnd::no_overlaps : end, out.at = measure(state, o.minimiser), out.at.packing = p;
       else if (end == DescentEnd::balanced)
         end = minimise_and_measure(r, o.minimiser, o.force_tolerance, near || cell.count() > 0, out.at);

@@ -74,9 +74,8 @@ struct CoincidentTuning {
 // ---- relaxation
 struct RelaxTuning {
   // The minimum of a fixed cell is found to this residual before the cell is free. Above it, what seems a saddle is
-  // minimised to less before spheres are moved away. Mean forces below the part weak_part of what the pressure makes of
-  // one contact a sphere are none.
-  static constexpr double before_strain = 1e-6, weak_part = 1e-3;
+  // minimised to less before spheres are moved away.
+  static constexpr double before_strain = 1e-6;
   // The resulting state has rounded positions. Where they do not balance, the descent continues, at most this
   // many times.
   static constexpr int most_roundings = 4;
@@ -100,10 +99,8 @@ struct RelaxTuning {
 
 // ---- a cell at a pressure far from that of the start
 struct PressureTuning {
-  // An unjammed cell shrinks by this strain at a time until the mean force is that of one such overlap, in diameters.
-  static constexpr double shrink = 0.02, first_overlap = 1e-4;
-  // Overlaps fall by this factor from one pressure to the next. At once, contacts part and meet again without end: from
-  // 1e-2 to 1e-7 that takes 20 times as many evaluations, or all of them (N = 64, alpha = 2).
+  static constexpr double shrink = 0.02;  // strain of a cell without overlaps at a time
+  // Overlaps fall by this factor from one pressure to the next. All at once, contacts part and meet again many times.
   static constexpr double overlaps_fall = 100.0;
 };
 

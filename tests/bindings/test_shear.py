@@ -370,6 +370,13 @@ class Shear(unittest.TestCase):
         parts.shear((steps - done) * step, step=step)
         self.assertTrue(np.array_equal(whole.positions, parts.positions))
 
+    def test_a_pressure_far_from_that_of_the_start(self):
+        """A gas, and the minimum at a far higher pressure; by sums over pairs, whose overlaps keep some nine digits."""
+        for phi, before in ((0.1, {}), (0.9, {"strain": "volume", "pressure": 2e-2})):
+            s = soft(32, phi=phi, **before)
+            self.assertEqual(s.shear(4e-3, step=2e-3, strain="volume", pressure=1e-5).status, 0)
+            self.assertAlmostEqual(sliding_sums(s, 4e-3)[1].trace() / 2e-5, 1, delta=1e-7)
+
     def test_a_call_continues_another_to_the_same_bits(self):
         """Minima whose rounded positions are off the tolerance, free cells whose vectors are rounded, and no overlaps."""
         for n, phi, options in (

@@ -128,7 +128,6 @@ class Ensembles(unittest.TestCase):
         for start, text in (
             (dict(container="torus"), "container must be one of"),
             (dict(container="ball", walls="x"), "no flat walls"),
-            (dict(n=4, lattice="fcc", walls="z"), "cube without walls"),
             (dict(n=8, model="mk", walls="z"), "start: walls: Mari-Kurchan"),
             (dict(n=8, walls="yz", crunch={"strain": "free"}), "crunch: a crunch that changes the cell at fixed volume needs at least 2 axes without walls"),
             (dict(n=8, model="mk", stages=[{"verb": "monte_carlo"}]), r"stages\[0\]: Monte Carlo has no"),

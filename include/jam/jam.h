@@ -131,7 +131,7 @@ typedef enum jam_status_code {
   JAM_OK = 0,              /* done: the target was reached */
   JAM_CANCELLED = 1,       /* jam_cancel or a callback requested a stop */
   JAM_LIMIT = 2,           /* a limit on work or time was reached before the target */
-  JAM_NOT_CONVERGED = 3,   /* the method made no more progress; the state reached is kept */
+  JAM_NOT_CONVERGED = 3,   /* the method made no further progress; the last state is kept */
   JAM_PRECISION = 4,       /* the target lies beyond what the numbers can resolve */
   JAM_NOT_JAMMED = 5,      /* there is no jammed network to work on */
   JAM_AMBIGUOUS = 6,       /* the answer is not unique; the text says which was returned */
@@ -998,7 +998,7 @@ typedef struct jam_radii_options {
   int64_t max_steps; /* of Newton's method, >= 1, default 100000 */
   double wall_time;  /* limit of the call */
   int64_t moments;   /* 0, the default: the sum; 1 .. 4: so many power sums keep their ratios, of these exponents: */
-  double exponent_1, exponent_2, exponent_3, exponent_4; /* |exponent| in [0.01, 8], default 1; 2; 3; 4 */
+  double exponent_1, exponent_2, exponent_3, exponent_4; /* |exponent| in [0.01, 8], 0.01 apart, default 1; 2; 3; 4 */
   int32_t strain;                                        /* @enum jam_free_strain, up to FREE, default NONE */
   int32_t reserved;
 } jam_radii_options;
@@ -1057,7 +1057,7 @@ typedef enum jam_soft_precision {
   JAM_SOFT_REFERENCE = 0, /* displacements from reference gaps in twice the digits: balance to 1e-14 at any overlap */
   JAM_SOFT_DOUBLE = 1     /* from coordinates in doubles: balance to about 1e-15 / overlap; for comparison */
 } jam_soft_precision;
-/* Options of jam_relax. A free cell is minimised after the minimum of the fixed one. */
+/* Options of jam_relax. A free cell is minimised after the minimum of the fixed one, and far from P in steps. */
 typedef struct jam_relax_options {
   uint32_t struct_size;
   int32_t minimiser;       /* @enum jam_minimiser, default NEWTON */
@@ -1069,7 +1069,7 @@ typedef struct jam_relax_options {
   double wall_time;        /* limit of the call */
   int32_t strain;          /* @enum jam_free_strain, default NONE */
   int32_t reserved;
-  double pressure; /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, also without contacts; else 0, the default */
+  double pressure; /* P > 0 with JAM_STRAIN_VOLUME: U + P V is minimised, of unjammed starts too; else 0, the default */
   int64_t components; /* bit c d + k: edge (c, c) or tilt (c, k), c < k, may change; default -1: all. Not VOLUME */
 } jam_relax_options;
 /* What jam_relax found. */

@@ -44,7 +44,7 @@ const char *text_of_status(jam_status status) {
       return "a limit on work or time was reached first; the state is valid: raise the limit, or call again to "
              "continue";
     case JAM_NOT_CONVERGED:
-      return "the method made no more progress; the state reached is kept";
+      return "the method made no further progress; the last state is kept, which need not be the best";
     case JAM_PRECISION:
       return "double precision cannot resolve the target; the result is as close to it as doubles allow";
     case JAM_NOT_JAMMED:

@@ -59,7 +59,7 @@ class PackingModel {
         row_high(rows, COIN_DBL_MAX);
     low.back() = -COIN_DBL_MAX, high.back() = COIN_DBL_MAX;
     for (int k = 0; k < rows; ++k) row_low[k] = -lp.c[k] / scale_;
-    usable = rows > 0 && clp_can_take(row_low) && clp_can_take(value);  // without a row g has no bound
+    usable = rows > 0 && clp_can_take(row_low) && clp_can_take(value);  // without rows nothing bounds g
     if (!usable) return;
     silent_.setLogLevel(0);
     model.passInMessageHandler(&silent_);

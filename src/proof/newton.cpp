@@ -127,7 +127,7 @@ bool approach_closure(ProofScene &s, ProofEquations &e) {
   for (;;) {
     CallScope::look();
     const NewtonStep step = newton_step(s, e, normal);
-    // Of a singular matrix, or of rows that no packing closes nearby: it may be infinite, or not a number.
+    // The step may be infinite or NaN: the matrix is singular, or no packing nearby closes these contacts.
     if (!(norm(step.v) < s.cell.side()) || !(std::fabs(step.gamma) < s.gamma())) break;
     ProofScene next = s;
     take_step(next, step);

@@ -170,7 +170,7 @@ double opening_of(const ProofScene &scene, const NearPair &pair);
 // can: a sphere that just fits touches others, and rounding is what stays of its overlap.
 bool free_rattler(ProofScene &scene, int32_t i, const std::vector<NearPair> &pairs);
 
-// All of them; whether one moved.
-bool free_rattlers(ProofScene &scene);
+// All of them.
+void free_rattlers(ProofScene &scene);
 
 }  // namespace jam::inside

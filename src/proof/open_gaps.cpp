@@ -243,21 +243,19 @@ bool free_rattler(ProofScene &s, int32_t i, const std::vector<NearPair> &pairs) 
     if (move_into_cage(moved, i, pairs, proof_tuning::far_above * s.ratio[i] * std::sqrt(s.gamma())))
       return s = std::move(moved), true;
     move_between(moved, i, pairs);
-    const double left = cage_of(moved, i, pairs).overlap();
-    if (left < overlap) s = moved, overlap = left;
+    const Cage there = cage_of(moved, i, pairs);  // without directions where it met another centre
+    if (there.has_directions() && there.overlap() < overlap) s = moved, overlap = there.overlap();
     if (overlap < 0.0) return true;
   }
   return false;
 }
 
-bool free_rattlers(ProofScene &s) {
+void free_rattlers(ProofScene &s) {
   const std::vector<NearPair> pairs = near_pairs(s);
-  bool moved = false;
   for (const NearPair &pair : pairs)
     for_spheres(pair.i, pair.j, [&](int32_t i) {
-      if (s.node[i] < 0 && opening_of(s, pair) < 0.0) moved = free_rattler(s, i, pairs) || moved;
+      if (s.node[i] < 0 && opening_of(s, pair) < 0.0) free_rattler(s, i, pairs);
     });
-  return moved;
 }
 
 }  // namespace jam::inside

@@ -63,11 +63,13 @@ SoftResult measure(SoftState &state, int32_t minimiser);
 SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precision);
 // Minimises by a jam_minimiser. near_minimum, convex: as of hybrid().
 DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, bool *convex = nullptr);
-// Brings the minimum of the fixed cell, which ended as `fixed`, near the pressure of a free one where that is far off:
-// a cell without overlaps shrinks, then expands from pressure to pressure. Spheres and cell balance roughly.
-DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser, DescentEnd fixed);
 // The same, and measures what is handed out: balanced means that its residuals are below the tolerance.
 DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, SoftResult &out);
+// Whether forces balance and the energy falls in some direction. convex: the Hessian is known to be positive.
+bool is_saddle(const Relaxation &r, const SoftResult &found, bool newton, bool convex);
+// end: of the minimum in the fixed cell. Shrinks a cell without overlaps until spheres overlap, and lowers a pressure
+// far above that of `cell` in steps, minimising to the tolerance or to RelaxTuning::before_strain at each.
+DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser, double tolerance, DescentEnd end);
 // Status and stop reason of a minimum.
 jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reason);
 // Overlaps, relative to the contact distance, that the rounding of positions hides.

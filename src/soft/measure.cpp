@@ -193,7 +193,7 @@ double Relaxation::stable_residual() const {
     sum += contacts.force[k];
     ++count;
   }
-  if (count == 0) return residual();
+  if (!(sum > 0.0)) return residual();
   return std::max(largest(force, state.n(), state.dim(), &stable) * static_cast<double>(count) / sum, sums.stress);
 }
 
@@ -219,7 +219,9 @@ bool Relaxation::open() const {
 }
 
 bool Relaxation::rounded(double tolerance) const {
-  return open() || (sums.contacts > 0 && stable_residual() < std::max(tolerance, roundings().coordinates));
+  if (open()) return true;
+  const double rounding = sums.contacts > 0 ? std::min(roundings().coordinates, NewtonTuning::settled) : 0.0;
+  return stable_residual() < std::max(tolerance, rounding);
 }
 
 bool Relaxation::at_rounding(double residual, double tolerance) const {

@@ -108,9 +108,8 @@ bool descent_ends(Relaxation &r, int64_t count, double tolerance, LeastResidual 
     if (now < tolerance) return end = DescentEnd::balanced, true;
     if (now < 0.5 * least.value)
       least = {now, count};
-    else if (r.renew_origin(now, tolerance))
-      return false;
-    else if (count > 2 * least.count + RelaxTuning::patience && r.at_rounding(now, tolerance))
+    else if (!r.renew_origin(now, tolerance) && count > 2 * least.count + RelaxTuning::patience &&
+             r.at_rounding(now, tolerance))
       return end = DescentEnd::rounding, true;
   }
   return r.must_stop(end);
@@ -227,7 +226,8 @@ DescentEnd lbfgs(Relaxation &r, double tolerance) {
 
 DescentEnd hybrid(Relaxation &r, double tolerance, bool near_minimum, bool &convex) {
   SoftHessian hessian;
-  const double least = NewtonTuning::next_target * tolerance;  // of what contacts that change may leave above it
+  // The last residual asked of L-BFGS: contacts that change after it may raise the residual again.
+  const double least = NewtonTuning::next_target * tolerance;
   double target = std::max(NewtonTuning::settled, tolerance);
   for (bool descend = !near_minimum;; descend = true) {
     if (descend) {

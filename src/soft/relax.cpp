@@ -70,10 +70,10 @@ DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool nea
   }
 }
 
-// Whether forces balance and the energy falls in some direction: where spheres that overlap have too few contacts to be
-// held, as those of a straight line, and where the Hessian is not positive. Its zero modes may be any. convex: it is.
-// Without Newton's method a large Hessian is not factorised for this question alone.
-static bool is_saddle(const Relaxation &r, const SoftResult &found, bool newton, bool convex) {
+// Of spheres that overlap with too few contacts to be held, as those of a straight line, and where the Hessian is not
+// positive. Its zero modes may be any. Without Newton's method a large Hessian is not factorised for this question
+// alone.
+bool is_saddle(const Relaxation &r, const SoftResult &found, bool newton, bool convex) {
   if (found.report.contacts == 0) return found.report.max_overlap > overlap_resolution(found.packing);
   const SoftContacts contacts = r.state.contacts();
   const std::vector<char> on = stable_contacts(r.state, contacts);
@@ -173,8 +173,8 @@ double overlap_resolution(const Packing &p) {
          *std::min_element(p.diameter.begin(), p.diameter.end());
 }
 
-// The cell takes in a strain along its own force, which is that of the pressure alone, and is fixed again. False where
-// the pressure does no work on the strains that are free.
+// Strains the free cell along its force, that of the pressure and loads, by PressureTuning::shrink, and fixes it again.
+// False where this force is 0: the strains that are free do not change the volume.
 static bool shrink(Relaxation &r, const FreeCell &cell) {
   r.state.free_cell(cell);
   r.evaluate();
@@ -189,43 +189,47 @@ static bool shrink(Relaxation &r, const FreeCell &cell) {
   return unit > 0.0;
 }
 
-DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser, DescentEnd end) {
+DescentEnd approach_pressure(Relaxation &r, const FreeCell &cell, int32_t minimiser, double tolerance, DescentEnd end) {
   const SoftState &state = r.state;
+  const double rough = std::max(tolerance, RelaxTuning::before_strain);
   const CancellableScope scope;
   while (end == DescentEnd::no_overlaps) {
+    if (DescentEnd stop; r.must_stop(stop, true)) return stop;
     if (!shrink(r, cell)) return end;
-    end = minimise(r, minimiser, RelaxTuning::before_strain, false);
+    end = minimise(r, minimiser, rough, false);
   }
   const double above = r.sums.virial / (state.dim() * scene_volume(state.base()) * cell.pressure);
-  const double falls =
-      std::round(math::log(above) / math::log(PressureTuning::overlaps_fall) / (state.energy().alpha() - 1.0));
-  for (double left = falls - 1.0; end == DescentEnd::balanced && left > 0.0; --left) {
+  const double fall = math::log(PressureTuning::overlaps_fall), all = math::log(above) / (state.energy().alpha() - 1.0);
+  const double falls = std::round(std::min(all, -math::log(std::numeric_limits<double>::epsilon())) / fall);
+  for (double left = falls - 1.0; can_continue(end) && left > 0.0; --left) {
     FreeCell at = cell;
     const double times = math::pow(above, left / falls);
     at.pressure *= times;
     for (double &load : at.beyond) load *= times;
     r.state.free_cell(at);
     r.evaluate();
-    end = minimise(r, minimiser, RelaxTuning::before_strain, false);
+    end = minimise(r, minimiser, rough, false);
   }
   return end;
 }
 
-// The minimum with the cell free, from the minimum of the fixed one.
+// The minimum with the cell free, from that of the fixed one, which ended so.
 static DescentEnd relax_cell(Relaxation &r, const jam_relax_options &o, DescentEnd end, SoftResult &out) {
   const FreeCell cell =
       free_cell_of(r.state.dim(), o.strain, o.components, o.pressure, ~r.state.base().container.closed());
   try {
     const CancellableScope scope;  // ends before the state reached is measured: that must not be cancelled
-    if (cell.pressure > 0.0) end = approach_pressure(r, cell, o.minimiser, end);
-    if (end != DescentEnd::balanced) return out = measure(r.state, o.minimiser), end;
-    r.state.free_cell(cell);
-    r.evaluate();
+    if (cell.pressure > 0.0) end = approach_pressure(r, cell, o.minimiser, o.force_tolerance, end);
+    if (can_continue(end)) {
+      r.state.free_cell(cell);
+      r.evaluate();
+    }
   } catch (const Cancelled &) {  // in a search for pairs
-    out = measure(r.state, o.minimiser);
-    return DescentEnd::interrupted;
+    end = DescentEnd::interrupted;
   }
-  return minimise_and_measure(r, o.minimiser, o.force_tolerance, false, out);
+  if (can_continue(end)) return minimise_and_measure(r, o.minimiser, o.force_tolerance, false, out);
+  out = measure(r.state, o.minimiser);
+  return end;
 }
 
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor) {
@@ -246,11 +250,7 @@ SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &moni
   SoftResult out;
   DescentEnd end = frees ? minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false)
                          : minimise_and_measure(r, o.minimiser, o.force_tolerance, false, out);
-  // A pressure brings overlaps back where the fixed cell has none.
-  if (frees && (end == DescentEnd::balanced || (end == DescentEnd::no_overlaps && o.pressure > 0.0)))
-    end = relax_cell(r, o, end, out);
-  else if (frees)
-    out = measure(state, o.minimiser);
+  if (frees) end = relax_cell(r, o, end, out);
   out.status = status_of(end, monitor, out.report.stop_reason);
   out.report.converged = end == DescentEnd::balanced || end == DescentEnd::no_overlaps;
   if (end == DescentEnd::balanced && out.report.mean_overlap < overlap_resolution(out.packing)) {

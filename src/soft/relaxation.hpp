@@ -19,6 +19,10 @@ enum class DescentEnd {
   stalled,      // the method made no progress
   rounding      // what forces leave is rounding
 };
+// Whether spheres overlap, and no limit ended the descent: another cell or pressure may follow.
+inline bool can_continue(DescentEnd end) {
+  return end == DescentEnd::balanced || end == DescentEnd::stalled || end == DescentEnd::rounding;
+}
 
 // What has been spent, and when to stop; shared by all parts of a call.
 struct Effort {
@@ -53,11 +57,13 @@ class Relaxation {
   double stable_residual() const;
   // Whether rounding may be all of this residual, and keeps the tolerance from being met.
   bool at_rounding(double residual, double tolerance) const;
-  // Whether the overlaps are what rounding of the coordinates makes of none, at no pressure.
+  // Whether rounding of the coordinates may have made all overlaps, at no pressure.
   bool open() const;
-  // Whether this is a minimum to the tolerance, or has no overlaps, but for the rounding of coordinates.
+  // open(), or the residual is below the tolerance or, where contacts have settled, below what rounding of the
+  // coordinates leaves of it.
   bool rounded(double tolerance) const;
-  // Gives displacements another origin, so that they are small, if their rounding keeps the tolerance from being met.
+  // Rounds positions and counts displacements from there, if rounding of long displacements keeps the residual above
+  // the tolerance. True: it did.
   bool renew_origin(double residual, double tolerance);
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
   // then, or where steps are long at every one.

@@ -132,6 +132,15 @@ static std::string out_of_reach(const FreeCell &cell, const ShearPoint &p) {
   return line;
 }
 
+// Whether the start is a minimum as it is, measured then.
+static bool is_minimum(Relaxation &r, const jam_shear_options &o, SoftResult &at) {
+  if (!r.rounded(o.force_tolerance)) return false;
+  at = measure(r.state, o.minimiser);
+  if (r.open() || !is_saddle(r, at, o.minimiser == JAM_MINIMISER_NEWTON, false)) return true;
+  r.evaluate();
+  return false;
+}
+
 FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effort &effort, Monitor &monitor) {
   const int dim = static_cast<int>(std::lround(std::sqrt(static_cast<double>(path.mode.size()))));
   int64_t free = o.components;
@@ -155,20 +164,20 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
       bool untouched = true;
       end = DescentEnd::balanced;
       if (cell.count() > 0) {
+        const bool far = first && cell.pressure > 0.0;  // a step at a pressure opens contacts that it closes again
         if (!near) end = minimise(r, o.minimiser, std::max(o.force_tolerance, RelaxTuning::before_strain), false);
-        if (near && r.open()) end = DescentEnd::no_overlaps;
-        if (first && cell.pressure > 0.0 && (end == DescentEnd::balanced || end == DescentEnd::no_overlaps))
-          end = approach_pressure(r, cell, o.minimiser, end);
+        if (near && r.open() && (far || !(cell.pressure > 0.0))) end = DescentEnd::no_overlaps;
+        if (far) end = approach_pressure(r, cell, o.minimiser, o.force_tolerance, end);
         untouched = effort.evaluations == begun;
-        if (end == DescentEnd::balanced) {
+        if (can_continue(end)) {
           state.free_cell(cell);
           r.evaluate();
         }
       }
-      // A start that is a minimum stays as it is, to the last bit: a step of the call before would begin with it.
-      if (first && untouched && end == DescentEnd::balanced && r.rounded(o.force_tolerance))
-        end = r.open() ? DescentEnd::no_overlaps : end, out.at = measure(state, o.minimiser), out.at.packing = p;
-      else if (end == DescentEnd::balanced)
+      // A start that is a minimum is not changed by a bit: a call that went on would begin its next step from it.
+      if (first && untouched && can_continue(end) && is_minimum(r, o, out.at))
+        end = r.open() ? DescentEnd::no_overlaps : end, out.at.packing = p;
+      else if (can_continue(end))
         end = minimise_and_measure(r, o.minimiser, o.force_tolerance, near || cell.count() > 0, out.at);
       else
         out.at = measure(state, o.minimiser);

@@ -100,14 +100,14 @@ class SoftState {
 
   // Frees the cell: amplitudes join the displacements, in blocks of dim.
   void free_cell(const FreeCell &cell);
-  const FreeCell &cell() const { return cell_; }
-  size_t strains() const { return static_cast<size_t>(cell_.count()); }
+  const FreeCell &cell() const { return at_.free; }
+  size_t strains() const { return static_cast<size_t>(at_.free.count()); }
   // Displacements of spheres, and blocks of dim with the strains.
   size_t spheres() const { return base_.position.size(); }
   size_t blocks() const { return displacement_.size() / static_cast<size_t>(base_.dim); }
   // At the present amplitudes; slopes are by the lengths behind the displacements.
   CellStrain strain() const;
-  double amplitude_unit() const { return amplitude_unit_; }
+  double amplitude_unit() const { return at_.unit; }
   const double *base_vector(size_t pair) const { return &vector_[pair * static_cast<size_t>(base_.dim)]; }
 
   // Forces on all spheres and on the strains (blocks, dim), and the sums.
@@ -149,14 +149,15 @@ class SoftState {
   double diameter_mean_, skin_;
   int64_t uses_ = 0;                  // evaluations since the list was made
   std::vector<double> displacement_;  // (n, dim)
-  // Free cell: the rounding of its vectors as a strain (dim, dim), the work up to now, and 1 / (diameter sqrt(n)).
+  // What is free of the cell, 1 / (diameter sqrt(n)), the rounding of its vectors as a strain (dim, dim), and the work
+  // up to now.
   struct CellState {
+    FreeCell free;
+    double unit = 0.0;
     std::vector<double> low;
     double work = 0.0;
   };
-  FreeCell cell_;
   CellState at_;
-  double amplitude_unit_ = 0.0;
   // Where the list was made.
   std::vector<double> listed_base_, listed_displacement_;
   Cell listed_cell_;

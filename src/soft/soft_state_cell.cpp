@@ -11,26 +11,26 @@ namespace jam::inside {
 
 void SoftState::free_cell(const FreeCell &cell) {
   const size_t d = static_cast<size_t>(base_.dim);
-  cell_ = cell;
+  at_.free = cell;
   at_.low.assign(d * d, 0.0);
-  amplitude_unit_ = 1.0 / (diameter_mean_ * std::sqrt(static_cast<double>(n())));
+  at_.unit = 1.0 / (diameter_mean_ * std::sqrt(static_cast<double>(n())));
   displacement_.resize(spheres() + (strains() + d - 1) / d * d, 0.0);
   rebase();
 }
 
 CellStrain SoftState::strain() const {
   std::vector<double> amplitude(displacement_.begin() + spheres(), displacement_.begin() + spheres() + strains());
-  for (double &a : amplitude) a *= amplitude_unit_;
-  CellStrain s = strain_of(cell_, amplitude.data());
+  for (double &a : amplitude) a *= at_.unit;
+  CellStrain s = strain_of(at_.free, amplitude.data());
   for (size_t c = 0; c < s.e.size(); ++c) s.e[c] += at_.low[c];
-  for (double &x : s.slope) x *= amplitude_unit_;
+  for (double &x : s.slope) x *= at_.unit;
   return s;
 }
 
 // Of pressure and loads since the list was made.
 double SoftState::load_work(const CellStrain &strain) const {
-  double sum = cell_.volume ? cell_.pressure * math::expm1(strain.log_volume) : 0.0;
-  for (size_t c = 0; c < cell_.beyond.size(); ++c) sum += cell_.beyond[c] * (strain.e[c] - at_.low[c]);
+  double sum = at_.free.volume ? at_.free.pressure * math::expm1(strain.log_volume) : 0.0;
+  for (size_t c = 0; c < at_.free.beyond.size(); ++c) sum += at_.free.beyond[c] * (strain.e[c] - at_.low[c]);
   return sum * scene_volume(base_);
 }
 
@@ -39,18 +39,18 @@ void SoftState::add_cell(SoftSums &sums, const CellStrain &strain, const std::ve
                          std::vector<double> &force) const {
   const int d = base_.dim;
   const size_t block = stress.size();
-  const double volume = scene_volume(base_), p_v = cell_.volume ? cell_.pressure * volume : 0.0;
+  const double volume = scene_volume(base_), p_v = at_.free.volume ? at_.free.pressure * volume : 0.0;
   sums.work = at_.work + load_work(strain);
   for (size_t k = 0; k < strains(); ++k) {
     const double *slope = &strain.slope[k * block];
     double f = 0.0;
     for (size_t c = 0; c < block; ++c) f += slope[c] * stress[c];
-    for (size_t c = 0; c < cell_.beyond.size(); ++c) f -= volume * cell_.beyond[c] * slope[c];
-    for (int c = 0; cell_.volume && c < d; ++c)
+    for (size_t c = 0; c < at_.free.beyond.size(); ++c) f -= volume * at_.free.beyond[c] * slope[c];
+    for (int c = 0; at_.free.volume && c < d; ++c)
       f -= p_v * math::exp(strain.log_volume) * slope[c * (d + 1)] / (1.0 + strain.e[c * (d + 1)]);
     force[spheres() + k] = f;
-    const double most = cell_.volume ? std::max(p_v, sums.virial / d) : sums.virial / d;
-    sums.stress = std::max(sums.stress, most > 0.0 ? std::fabs(f) / (amplitude_unit_ * most) : 0.0);
+    const double most = at_.free.volume ? std::max(p_v, sums.virial / d) : sums.virial / d;
+    sums.stress = std::max(sums.stress, most > 0.0 ? std::fabs(f) / (at_.unit * most) : 0.0);
   }
 }
 

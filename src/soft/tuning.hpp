@@ -99,8 +99,9 @@ struct RelaxTuning {
 
 // ---- a cell at a pressure far from that of the start
 struct PressureTuning {
-  static constexpr double shrink = 0.02;  // strain of a cell without overlaps at a time
-  // Overlaps fall by this factor from one pressure to the next. All at once, contacts part and meet again many times.
+  static constexpr double shrink = 0.02;  // largest amplitude of a strain of a cell without overlaps, at a time
+  // Overlaps fall by this factor from one pressure to the next. In one step contacts open and close many times, and the
+  // minimisation takes far longer.
   static constexpr double overlaps_fall = 100.0;
 };
 

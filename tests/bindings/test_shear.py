@@ -371,14 +371,14 @@ class Shear(unittest.TestCase):
         self.assertTrue(np.array_equal(whole.positions, parts.positions))
 
     def test_a_pressure_far_from_that_of_the_start(self):
-        """A gas, and the minimum at a far higher pressure; by sums over pairs, whose overlaps keep some nine digits."""
+        """Starts without contacts, and at 2000 times the pressure; the stress of rounded positions has some nine digits."""
         for phi, before in ((0.1, {}), (0.9, {"strain": "volume", "pressure": 2e-2})):
             s = soft(32, phi=phi, **before)
             self.assertEqual(s.shear(4e-3, step=2e-3, strain="volume", pressure=1e-5, max_evaluations=100000).status, 0)
             self.assertAlmostEqual(sliding_sums(s, 4e-3)[1].trace() / 2e-5, 1, delta=1e-7)
 
     def test_a_call_continues_another_to_the_same_bits(self):
-        """Minima whose rounded positions are off the tolerance, free cells whose vectors are rounded, and no overlaps."""
+        """Two calls make what one makes: where rounded positions miss the tolerance, in free cells, and without overlaps."""
         for n, phi, options in (
             (16, 0.9, {"strain": "volume", "pressure": 1e-2}),
             (24, 0.9, {"strain": "all", "pressure": 1e-4, "alpha": 2.5}),
@@ -393,6 +393,23 @@ class Shear(unittest.TestCase):
                 parts.shear(0.01, step=2e-3, **options)
                 self.assertTrue(np.array_equal(whole.positions, parts.positions))
                 self.assertTrue(np.array_equal(whole.cell, parts.cell))
+
+    def test_a_step_that_opens_all_contacts_keeps_the_pressure(self):
+        """Stretched by more than its overlaps, the cell closes again along the other edge."""
+        s, mode = soft(16, strain="volume", pressure=1e-7), [[1, 0], [0, 0]]
+        report = s.shear(4e-3, step=2e-3, mode=mode, strain="edges_volume", pressure=1e-7, components=1 << 3)
+        self.assertEqual(report.status, 0)
+        self.assertGreater(s.shear_rows["contacts"].min(), 2 * 8)
+        for stress in s.shear_rows["pressure"]:
+            self.assertGreater(stress, 0)
+        self.assertAlmostEqual(s.stress()[1, 1] / 1e-7, 1, delta=1e-6)
+
+    def test_a_start_at_a_saddle_is_none(self):
+        s = jam.System.from_arrays(np.indices((6, 6)).reshape(2, -1).T + 0.5, 1.1, cell=[6, 6], overlap="allow")
+        energy, _ = sliding_sums(s, 0)
+        s.shear(1e-6, step=1e-6)
+        self.assertLess(s.shear_rows["energy"][0] * s.n, 0.99 * energy)
+        self.assertGreater(lowest_curvature(s), -1e-6)
 
     def test_no_cell_becomes_narrower_than_a_sphere(self):
         s = soft(24, phi=0.95, seed=5)

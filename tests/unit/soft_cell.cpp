@@ -3,6 +3,7 @@
 #include <cmath>
 #include "test.h"
 
+#include "core/call_scope.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
 #include "unit/random_packing.hpp"
@@ -118,8 +119,8 @@ CASE(statuses) {
   }
 }
 
-// Starts far below and far above a pressure: a gas, overlapping points, and the minimum at another pressure. A descent
-// at once ends by its limit of evaluations.
+// Starts far below and far above a pressure: a gas, overlapping points, and minima at other pressures. Minimised at the
+// pressure at once, the starts above it use up max_evaluations.
 CASE(pressures_far_from_the_start) {
   for (const int32_t m : {JAM_MINIMISER_NEWTON, JAM_MINIMISER_LBFGS})
     for (const double alpha : {2.0, 2.5})
@@ -133,10 +134,15 @@ CASE(pressures_far_from_the_start) {
           const SoftResult a = relaxed(*p, o);
           assert_int_equal(a.status, JAM_OK);
           assert_true(std::fabs(a.report.pressure / 1e-7 - 1.0) < 1e-11 && a.report.excess_contacts >= 0);
+          o.pressure = 1e-2;  // and back
+          const SoftResult b = relaxed(a.packing, o);
+          assert_int_equal(b.status, JAM_OK);
+          assert_true(std::fabs(b.report.pressure / 1e-2 - 1.0) < 1e-11);
+          o.pressure = 1e-7;
         }
       }
   jam_relax_options o = options(JAM_MINIMISER_NEWTON, JAM_STRAIN_EDGES_VOLUME, 1e-4);
-  o.components = 1 << 3;  // (1, 1): a gas between pistons
+  o.components = 1 << 3;  // (1, 1): one edge alone is free
   const Cell piston = relaxed(random_packing(2, 60, 0.3, 9), o).packing.cell;
   assert_true(std::fabs(piston.edge(0) - 1.0) < 1e-14 && piston.edge(1) < 0.5);
   o.strain = JAM_STRAIN_ALL, o.components = 1 << 1;  // (0, 1): a tilt alone, on which no pressure works
@@ -174,6 +180,30 @@ CASE(cut_short) {
   monitor.begin();
   monitor.cancel();
   assert_int_equal(relax(start, options(0, JAM_STRAIN_ALL, 0.02), monitor).status, JAM_CANCELLED);
+}
+
+// Cancelled as the cell is freed or fixed, in the search for pairs, the state is what it was before.
+CASE(cancelled_in_a_search) {
+  const FreeCell free = free_cell_of(2, JAM_STRAIN_ALL, -1, 0.1), fixed;
+  SoftState state(random_packing(2, 20, 0.9, 7), PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  Monitor monitor;
+  monitor.begin();
+  monitor.cancel();
+  const CallScope scope(1e12, &monitor);
+  for (const FreeCell *cell : {&free, &fixed}) {
+    std::vector<double> before, after;
+    const double energy = state.evaluate(before).energy;
+    bool thrown = false;
+    try {
+      const CancellableScope leaves;
+      state.free_cell(*cell);
+    } catch (const Cancelled &) {
+      thrown = true;
+    }
+    assert_true(thrown && state.evaluate(after).energy == energy && before == after);
+    assert_true(state.displacement().size() == before.size());
+    state.free_cell(*cell);
+  }
 }
 
 }  // namespace

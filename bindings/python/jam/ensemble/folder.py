@@ -220,7 +220,8 @@ def _counted(entries: list[Entry], damaged: dict[Path, str]) -> Content:
 def _protocol(path: Path, name: str, text: str | None = None) -> dict[str, Any]:
     with refusing(path):
         found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8") if text is None else text)
-        found["start"].pop("lattice", None)  # of older folders, where it is None
+        if found["start"].get("lattice", 0) is None:  # protocols of older folders have lattice: null
+            del found["start"]["lattice"]
         if identity(found) != name:
             raise StoreError(
                 22,

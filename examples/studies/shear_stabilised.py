@@ -9,6 +9,7 @@ relaxed elastic tensor over all traceless strains says whether a packing is stab
 Default: 32 spheres, under a minute. --large: three sizes. Needs `jam`, numpy, matplotlib.
 """
 import argparse
+import sys
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -43,7 +44,7 @@ def sample(d, n, seed, pressure, strain):
     pressure *= float(np.mean(packing.diameters)) ** (2 - d)
     try:
         report = packing.relax(strain=strain, pressure=pressure, scale="absolute", max_evaluations=50000)
-    except jam.errors.OverlapError:  # pressed so far that a sphere would reach across the cell
+    except jam.errors.OverlapError:  # the cell became narrower than a sphere
         return None
     if report.status != 0 or report.contacts == 0:
         return None
@@ -66,7 +67,9 @@ def main():
                 for scaled in 10.0 ** np.arange(-1.0, 3.1, 1.0):
                     moduli = [sample(d, n, seed, scaled / n**2, strain) for seed in range(1, packings + 1)]
                     found = np.array([m for m in moduli if m is not None])
-                    share = float(np.mean(found < 0.0)) if len(found) else np.nan
+                    if not len(found):
+                        sys.exit(f"d {d} N {n} {strain} pN^2 {scaled:g}: none of {packings} packings has a minimum")
+                    share = float(np.mean(found < 0.0))
                     x.append(scaled), y.append(share)
                     error.append(np.sqrt(max(share * (1 - share), 1.0 / len(found)) / len(found)))
                     print(

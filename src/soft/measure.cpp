@@ -238,6 +238,9 @@ bool Relaxation::renew_origin(double residual, double tolerance) {
 }
 
 bool Relaxation::yields() const {
+  const Packing &p = state.base();
+  if (state.strains() > 0 && p.cell.shortest() < 0.5 * *std::max_element(p.diameter.begin(), p.diameter.end()))
+    return true;
   if (state.cell().beyond.empty()) return false;
   const std::vector<double> e = strain_between(start, state.base().cell);
   return std::any_of(e.begin(), e.end(), [](double x) { return std::fabs(x) > RelaxTuning::most_strain; });

@@ -68,7 +68,8 @@ class Relaxation {
   // Called once an evaluation: true when the descent must end, with the reason in `end`. The monitor is asked now and
   // then, or where steps are long at every one.
   bool must_stop(DescentEnd &end, bool long_steps = false) const;
-  // Whether a cell under loads that no energy bounds has strained too far to come to rest.
+  // Whether a cell under loads that no energy bounds has strained too far to come to rest, or is narrower than a
+  // radius. Its packing is refused, and lists of pairs grow as the period falls.
   bool yields() const;
 
   SoftState &state;

@@ -4,6 +4,7 @@
 #include "test.h"
 
 #include "core/call_scope.hpp"
+#include "core/create.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
 #include "unit/random_packing.hpp"
@@ -180,6 +181,22 @@ CASE(cut_short) {
   monitor.begin();
   monitor.cancel();
   assert_int_equal(relax(start, options(0, JAM_STRAIN_ALL, 0.02), monitor).status, JAM_CANCELLED);
+}
+
+// Walls hold one edge, and a steep energy bears no pressure: the cell collapses. A descent ends before the period falls
+// to a thousandth of a diameter, where each sphere would have thousands of own images in reach.
+CASE(a_cell_that_collapses) {
+  jam_create_options slab = default_create_options();
+  slab.dim = 2, slab.n = 8, slab.seed = 1, slab.packing_fraction = 0.05, slab.walls = 1;
+  slab.overlap = JAM_OVERLAP_ALLOW;
+  const Packing p = make_packing(slab, nullptr, 0, nullptr, 0, nullptr);
+  for (int32_t m = JAM_MINIMISER_NEWTON; m <= JAM_MINIMISER_LBFGS; ++m) {
+    jam_relax_options o = options(m, JAM_STRAIN_EDGES_VOLUME, 0.1);
+    o.alpha = 8.0, o.scale = JAM_SOFT_ABSOLUTE;
+    const SoftResult end = relaxed(p, o);
+    assert_int_equal(end.status, JAM_NOT_CONVERGED);
+    assert_true(end.packing.cell.shortest() > 1e-3 * p.diameter[0]);
+  }
 }
 
 // Cancelled as the cell is freed or fixed, in the search for pairs, the state is what it was before.

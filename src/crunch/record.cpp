@@ -150,13 +150,13 @@ CrunchStage CrunchStage::of(const std::string &bytes) {
 
 Touching find_touching(const Packing &start) {
   const GapResolution resolution = gap_resolution(start);
-  const PairList pairs = find_pairs(start, resolution.reach(), 1.0 + contact_gap_limit);
+  const PairList pairs = resolution.pairs_in_reach(start, contact_gap_limit);
   const std::vector<double> gap = relative_gaps(start, pairs);
   Touching found;
   found.total = 0;
   for (size_t k = 0; k < pairs.size(); ++k) {
-    const double length = gap[k] * contact_distance(start, pairs.i[k], pairs.j[k]);
-    if (!(gap[k] < contact_gap_limit || length < resolution.reach())) continue;
+    const double sigma = contact_distance(start, pairs.i[k], pairs.j[k]);
+    if (!(gap[k] < contact_gap_limit || gap[k] * sigma < resolution.reach(sigma))) continue;
     ++found.images[{pairs.i[k], pairs.j[k]}], ++found.total;
   }
   return found;

@@ -76,8 +76,12 @@ void measure_contacts(const Packing &p, ContactNetwork &net) {
 }
 
 ContactNetwork unforced_pairs(const Packing &p, double reach, double slope) {
+  return unforced_network(p, find_pairs(p, reach, slope));
+}
+
+ContactNetwork unforced_network(const Packing &p, PairList pairs) {
   ContactNetwork out;
-  out.pairs = find_pairs(p, reach, slope);
+  out.pairs = std::move(pairs);
   measure_contacts(p, out);
   out.coordination.assign(p.n(), 0);
   out.force.assign(out.size(), 0.0);

@@ -26,6 +26,7 @@ void measure_contacts(const Packing &p, ContactNetwork &net);
 
 // All pairs of a search (core/pairs.hpp), with forces 0.
 ContactNetwork unforced_pairs(const Packing &p, double reach, double slope);
+ContactNetwork unforced_network(const Packing &p, PairList pairs);
 
 // Sets the force scale of forces of mean 1: that of lambda r with lambda = c f / r and sum lambda sigma^2 = 1.
 void set_force_scale(const Packing &p, ContactNetwork &net);

@@ -134,7 +134,8 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   const GapList g = pairs_below(p, window);
   const GapResolution resolution = gap_resolution(p);
   r.resolution = resolution.relative(p);
-  const double reach = resolution.reach() / *std::min_element(p.diameter.begin(), p.diameter.end());
+  const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
+  const double reach = resolution.reach(smallest) / smallest;
   r.tolerance = o.tolerance;
   r.second_contacts = -1;
   bool clear = true, wide = false;

@@ -8,7 +8,6 @@
 #include "core/decimal.hpp"
 #include "core/math.hpp"
 #include "core/pair_rule.hpp"
-#include "core/pairs.hpp"
 #include "network/tuning.hpp"
 
 namespace jam::inside {
@@ -39,17 +38,24 @@ bool has_exact_contacts(const Packing &p, double reach) {
 
 }  // namespace
 
+double GapResolution::reach(double sigma) const {
+  return std::min(8.0 * std::max(error, shrunk * sigma), widest_reach * sigma);
+}
+
 double GapResolution::relative(const Packing &p) const {
-  return std::max(rounding, error / *std::min_element(p.diameter.begin(), p.diameter.end()));
+  const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
+  return std::max(rounding, reach(smallest) / (8.0 * smallest));
 }
 
 int32_t GapResolution::digits(const Packing &p) const {
   return step > 0.0 ? static_cast<int32_t>(std::lround(math::log(p.cell.side() / step) / math::log(10.0))) : 0;
 }
 
-void widen(GapResolution &resolution, const Packing &p, double error) {
-  const double widest = widest_reach / 8.0 * *std::min_element(p.diameter.begin(), p.diameter.end());
-  resolution.error = std::max(resolution.error, std::min(error, widest));
+// Where the error is wider than the reach of the smallest pair, no pair reaches farther than its part of sigma.
+PairList GapResolution::pairs_in_reach(const Packing &p, double gap) const {
+  const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
+  if (8.0 * error > widest_reach * smallest) return find_pairs(p, 0.0, 1.0 + std::max(gap, widest_reach));
+  return find_pairs(p, 8.0 * error, 1.0 + std::max(gap, std::min(8.0 * shrunk, widest_reach)));
 }
 
 GapResolution gap_resolution(const Packing &p) {
@@ -61,8 +67,8 @@ GapResolution gap_resolution(const Packing &p) {
   digits.take(fraction_digits(p, digits.step == 0.0));
   digits.take(p.given);
   out.step = digits.step, out.base = digits.base;
-  widen(out, p, std::sqrt(static_cast<double>(p.dim)) * out.step);
-  if (out.coarse(p) && has_exact_contacts(p, out.reach())) out.step = out.error = 0.0, out.base = 0;
+  out.error = std::sqrt(static_cast<double>(p.dim)) * out.step;
+  if (out.coarse(p) && has_exact_contacts(p, 8.0 * out.error)) out.step = out.error = 0.0, out.base = 0;
   return out;
 }
 

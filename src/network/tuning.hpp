@@ -38,7 +38,7 @@ constexpr double clear_distance = 1e-3;
 // wider one is a contact, except for what the digits hide.
 constexpr double nearly_touching = 0.01;
 
-// ---- a wider error of gaps than of this reach, over the smallest diameter, says nothing about contacts at all
+// ---- a wider error of gaps than of this reach, over the contact distance, says nothing about contacts at all
 constexpr double widest_reach = 0.5;
 
 // ---- rounding: below the first a number is zero, above the second it is not; between them the digits do not decide.

@@ -146,8 +146,10 @@ TestedPacking without_overlaps(const Packing &p) {
   if (!(closest.gap < -contact_gap_limit)) return out;
   refuse_soft(p, closest);
   const double overlap = -closest.gap * contact_distance(p, closest.i, closest.j);
-  out.overlapping = -closest.gap > undecided_gap_limit && overlap > out.resolution.reach();
-  widen(out.resolution, p, overlap);
+  out.overlapping =
+      -closest.gap > undecided_gap_limit && overlap > out.resolution.reach(contact_distance(p, closest.i, closest.j));
+  out.resolution.error = std::max(out.resolution.error, overlap);
+  out.resolution.shrunk = -closest.gap;
   out.diameter_factor = 1.0 + closest.gap;
   for (double &sigma : out.packing.diameter) sigma *= out.diameter_factor;
   return out;

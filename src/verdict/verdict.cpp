@@ -93,7 +93,7 @@ bool may_be_proved(const JammingCase &c) {
 // The pairs that touch or may touch, their rows and flags.
 JammingCase open_case(const Packing &p, const GapResolution &resolution, const ContactNetwork *listed, Jamming kind) {
   JammingCase c{p, resolution, nullptr, kind, false, {}, {}, {}};
-  const ContactNetwork near = unforced_pairs(p, resolution.reach(), 1.0 + listed_gap_limit);
+  const ContactNetwork near = unforced_network(p, resolution.pairs_in_reach(p, listed_gap_limit));
   std::vector<double> in_list(near.size(), 0.0);
   if (listed) in_list = carry_over(listed->pairs, std::vector<double>(listed->size(), 1.0), near.pairs);
   std::vector<char> tested(near.size());
@@ -104,7 +104,7 @@ JammingCase open_case(const Packing &p, const GapResolution &resolution, const C
     if (!tested[k]) continue;
     const bool closed = near.gap[k] < (is_listed ? undecided_gap_limit : contact_gap_limit);
     c.pairs.listed.push_back(is_listed), c.pairs.closed.push_back(closed);
-    c.pairs.maybe_closed.push_back(closed || is_listed || near.gap[k] * sigma < resolution.reach());
+    c.pairs.maybe_closed.push_back(closed || is_listed || near.gap[k] * sigma < resolution.reach(sigma));
   }
   ContactNetwork &net = c.v.contacts = subset(near, tested, p.dim);
   c.v.undecided_contacts =

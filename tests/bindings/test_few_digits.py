@@ -54,6 +54,33 @@ class FewDigits(unittest.TestCase):
             )
             self.assertEqual(t.check(crunch=False).jammed, Verdict.UNDECIDED)
 
+    def test_small_spheres_hide_no_digits_of_large_ones(self):
+        """Rattlers far smaller than the rest, two that overlap and one beside rounded centres, say nothing of the rest."""
+        s = packing(60, 3, 2)
+        x, diameters, cell = state(s)
+        points = np.random.default_rng(1).random((20000, 3)) @ cell
+        r = points[:, None, :] - x
+        hole = points[np.linalg.norm(r - np.round(r @ np.linalg.inv(cell)) @ cell, axis=2).min(axis=1).argmax()]
+        small = diameters[0] / 25
+        for part in (1e-6, 1e-3, 1e-2):
+            two = [hole, hole + [small * (1 - part), 0, 0]]
+            t = jam.System.from_arrays(np.vstack([x, two]), [*diameters, small, small], cell=cell, overlap="allow")
+            r = t.check(crunch=False)
+            self.assertEqual((r.jammed, r.reason), (Verdict.UNDECIDED, CheckReason.OVERLAP), r)
+            self.assertEqual(t.rigidity().jammed, Verdict.UNDECIDED)
+        for part in (1e-2, 1e-3, 1e-4):
+            y = np.vstack([np.round(x, 4), hole])
+            t = jam.System.from_arrays(y, [*diameters, diameters[0] * part], cell=cell, overlap="allow")
+            self.assertEqual(t.check(crunch=False).jammed, Verdict.UNDECIDED)
+
+    def test_overlaps_of_unequal_spheres(self):
+        """All diameters shrink by the largest overlap, which opens pairs of large spheres by more than it is long."""
+        for ratio in (5, 20):
+            s = jam.System.random(dim=2, diameters=[ratio] * 40 + [1.0] * 60, seed=1, packing_fraction=0.95, overlap="allow")
+            self.assertGreater(s.relax().contacts, 0)
+            r = s.check(crunch=False)
+            self.assertEqual((r.jammed, r.reason), (Verdict.UNDECIDED, CheckReason.OVERLAP), r)
+
     def test_digits_of_radii_and_cell(self):
         """Centres with all digits beside rounded radii, a rounded cell, or some rounded centres."""
         s = packing(60, 3, 4, diameters=np.linspace(1.0, 1.3, 60))

@@ -189,11 +189,14 @@ typedef struct output {
   size_t size;
 } output;
 int check_writable(const char *path, void *unused); /* before hours of work */
+int is_stdout(const char *path);
+int appears_whole(const char *path); /* a file, which is replaced as a whole */
 int open_output(output *out, const char *path);
 int close_output(output *out);
 int end_stdout(int code);  /* what printf has collected; code, or after a message EXIT_OUTPUT */
 int end_json(output *out); /* the version, and the end of the object */
-int put_bytes(int descriptor, const char *text, size_t size); /* all of them, also after signals */
+/* All of them, also after signals. A lost reader and a limit on the size of files are errors, and no signal. */
+int put_bytes(int descriptor, const char *text, size_t size);
 
 /* verbs.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */
 void cancel_on_signal(jam_system *sys);

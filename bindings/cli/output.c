@@ -29,6 +29,12 @@ static int descriptor_of(const char *path) {
   return -1;
 }
 
+int is_stdout(const char *path) { return descriptor_of(path) == STDOUT_FILENO; }
+
+int appears_whole(const char *path) {
+  return descriptor_of(path) < 0 && (kind_of(path) == KIND_NONE || kind_of(path) == KIND_FILE);
+}
+
 int check_writable(const char *path, void *unused) {
   file_kind kind;
   (void)unused;
@@ -55,14 +61,19 @@ int open_output(output *out, const char *path) {
 }
 
 int put_bytes(int fd, const char *text, size_t size) {
-  while (size > 0) {
+  int error = 0;
+  ignore_signals_of_writes(1);
+  while (size > 0 && !error) {
     const size_t most = size < 1 << 30 ? size : 1 << 30; /* Windows counts in ints */
     const ssize_t done = write(fd, text, most);
-    if (done < 0 && errno == EINTR) continue;
-    if (done < 0) return -1;
-    text += done, size -= (size_t)done;
+    if (done >= 0)
+      text += done, size -= (size_t)done;
+    else if (errno != EINTR)
+      error = errno;
   }
-  return 0;
+  ignore_signals_of_writes(0);
+  errno = error ? error : errno;
+  return error ? -1 : 0;
 }
 
 int close_output(output *out) {
@@ -72,12 +83,7 @@ int close_output(output *out) {
     failed = fflush(stdout) || put_bytes(descriptor, out->text, out->size);
   } else if (!failed && kind_of(out->path) == KIND_OTHER) {
     const int fd = open_in_place(out->path);
-    failed = fd < 0;
-    if (!failed) {
-      ignore_lost_reader(1);
-      failed = put_bytes(fd, out->text, out->size);
-      ignore_lost_reader(0);
-    }
+    failed = fd < 0 || put_bytes(fd, out->text, out->size);
     if (fd >= 0) failed |= close(fd);
   } else if (!failed) {
     failed = replace_file(out->path, out->text, out->size);

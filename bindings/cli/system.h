@@ -14,7 +14,9 @@ int may_create(const char *path); /* a file in the folder of this name: 0 or -1 
 char *resolve(const char *path);
 FILE *open_stream(const char *path, const char *mode); /* fopen */
 int open_in_place(const char *path);                   /* a descriptor to write to a pipe or a device */
-void ignore_lost_reader(int yes); /* of a pipe: then a write to it fails, and no signal ends the program */
+/* A write to a pipe without a reader, or beyond the limit on the size of files, then fails, and no signal ends the
+ * program. With 0 those who had the signals get them back. */
+void ignore_signals_of_writes(int yes);
 
 /* Closed ones of the three standard descriptors lead nowhere from now on: no file that is opened becomes one of them,
  * and what is printed there fails. */
@@ -28,7 +30,8 @@ int close_text(FILE *file, char **text, size_t *size);
  * renamed. A killed program leaves at most this file, in the moment in which it is written. */
 int replace_file(const char *path, const char *text, size_t size);
 
-/* Ctrl-C and a request to end call `handler`, until give_signals_back(). */
+/* Ctrl-C and a request to end call `handler`, and a write beyond the limit on the size of files fails, until
+ * give_signals_back(). */
 void take_signals(void (*handler)(int number));
 void give_signals_back(void);
 

@@ -55,7 +55,15 @@ char *resolve(const char *path) { return resolve_links(path, 40); }
 FILE *open_stream(const char *path, const char *mode) { return fopen(path, mode); }
 
 int open_in_place(const char *path) { return open(path, O_WRONLY); }
-void ignore_lost_reader(int yes) { signal(SIGPIPE, yes ? SIG_IGN : SIG_DFL); }
+
+void ignore_signals_of_writes(int yes) {
+  static struct sigaction before_pipe, before_size;
+  struct sigaction own;
+  memset(&own, 0, sizeof own);
+  own.sa_handler = SIG_IGN;
+  sigaction(SIGPIPE, yes ? &own : &before_pipe, yes ? &before_pipe : NULL);
+  sigaction(SIGXFSZ, yes ? &own : &before_size, yes ? &before_size : NULL);
+}
 
 void keep_standard_descriptors(void) {
   int fd;
@@ -88,11 +96,12 @@ static int keep_rights(int fd, const struct stat *there, mode_t mode) {
 
 int replace_file(const char *path, const char *text, size_t size) {
   struct stat there;
-  char *const real = realpath(path, NULL); /* a link stays a link */
+  char *const real = resolve(path); /* a link stays a link, also where it leads to no file yet */
   const char *const target = real ? real : path, *const slash = strrchr(target, '/');
   const size_t folder = slash ? (size_t)(slash - target) + 1 : 0;
   const mode_t mask = umask(0);
-  const mode_t mode = real && stat(real, &there) == 0 ? there.st_mode & 0777 : 0666 & ~mask;
+  const int is_there = stat(target, &there) == 0;
+  const mode_t mode = is_there ? there.st_mode & 0777 : 0666 & ~mask;
   char *const beside = malloc(folder + 32);
   int bad = -1, fd = -1, error;
   umask(mask);
@@ -101,7 +110,7 @@ int replace_file(const char *path, const char *text, size_t size) {
     fd = mkstemp(beside);
   }
   if (fd >= 0) {
-    bad = put_bytes(fd, text, size) || keep_rights(fd, real ? &there : NULL, mode) || fsync(fd);
+    bad = put_bytes(fd, text, size) || keep_rights(fd, is_there ? &there : NULL, mode) || fsync(fd);
     error = errno;
     if (close(fd) && !bad) bad = -1, error = errno;
     if (!bad && rename(beside, target)) bad = -1, error = errno;
@@ -113,7 +122,7 @@ int replace_file(const char *path, const char *text, size_t size) {
   return bad ? -1 : 0;
 }
 
-static struct sigaction before_interrupt, before_terminate;
+static struct sigaction before_interrupt, before_terminate, before_size;
 
 void take_signals(void (*handler)(int number)) {
   struct sigaction own;
@@ -122,11 +131,14 @@ void take_signals(void (*handler)(int number)) {
   sigemptyset(&own.sa_mask);
   sigaction(SIGINT, &own, &before_interrupt);
   sigaction(SIGTERM, &own, &before_terminate);
+  own.sa_handler = SIG_IGN;
+  sigaction(SIGXFSZ, &own, &before_size);
 }
 
 void give_signals_back(void) {
   sigaction(SIGINT, &before_interrupt, NULL);
   sigaction(SIGTERM, &before_terminate, NULL);
+  sigaction(SIGXFSZ, &before_size, NULL);
 }
 
 void take_words(int *argc, char ***argv) { (void)argc, (void)argv; }

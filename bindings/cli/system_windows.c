@@ -72,7 +72,7 @@ FILE *open_stream(const char *path, const char *mode) {
   return file;
 }
 
-void ignore_lost_reader(int yes) { (void)yes; } /* the system has no such signal */
+void ignore_signals_of_writes(int yes) { (void)yes; } /* the system has no such signals */
 void keep_standard_descriptors(void) {}
 
 int open_in_place(const char *path) {

@@ -9,6 +9,7 @@ import os
 import re
 import sys
 import tempfile
+import unittest
 from pathlib import Path
 
 import jam
@@ -359,6 +360,21 @@ class CommandLine(InFolder):
         self.assertEqual((code, said["status"]), (1, 1))
         self.assertEqual(said["text"].splitlines(), [re.sub(r"^[^:]*: ", "", line) for line in err.splitlines()])
         self.assertEqual((said["n"], said["dim"]), (20, 3))
+
+    @unittest.skipUnless(os.path.exists("/proc/self/status"), "the system does not tell which signals are ignored")
+    def test_signals_of_the_process_stay_its_own(self):
+        """Python ignores SIGPIPE and SIGXFSZ; a report to a pipe, or to a file, leaves that."""
+
+        def ignored():
+            return re.search(r"SigIgn:\s*(\w+)", Path("/proc/self/status").read_text())[1]
+
+        before, pipe = ignored(), self.folder / "pipe"
+        os.mkfifo(pipe)
+        reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+        for place in (pipe, self.folder / "r.json"):
+            self.assertEqual(self.run_words("--n", 8, "--no-md", "--no-crunch", "--quiet", "--report", place)[0], 0)
+            self.assertEqual(ignored(), before)
+        os.close(reader)
 
     def test_what_python_draws_is_known_before_the_work(self):
         self.refused(USAGE, "--plot p.foo: no picture is drawn by this ending", "--n", "20", "--plot", "p.foo")

@@ -120,6 +120,26 @@ class Stops(InFolder):
                 return
         self.fail("no signal came between the file and the page")
 
+    @unittest.skipUnless(hasattr(signal, "SIGXFSZ"), "no limit on the size of files")
+    def test_a_limit_on_the_size_of_files_is_an_error(self):
+        """Of the program's files, of the library's, and of the log; none is left in part."""
+        packing = self.dir / "p.xyz"
+        run("--n", 20, "--no-md", "--no-crunch", "--quiet", "--output", packing)
+        bins = "--profile-bins 60000 --quiet"
+        for words in (f"export p.xyz --profile q.csv {bins}", f"export p.xyz --profile /dev/stdout {bins} >q.csv",
+                      f"export p.xyz --profile q.csv {bins} --json >out", "--n 400 --growth 1e-1:1e3 --quiet --log q.csv"):  # fmt: skip
+            done = subprocess.run(["sh", "-c", f"ulimit -f 1; exec {program} {words}"], cwd=self.dir, capture_output=True, text=True, timeout=60, check=False)
+            self.assertEqual((done.returncode, "File too large" in done.stderr), (4, True), (words, done))
+            names = sorted(p.name for p in self.dir.iterdir() if p.name not in ("out", "q.csv"))
+            self.assertEqual(names, ["p.xyz"], words)
+
+    def test_a_table_follows_a_link_to_a_file_that_is_not_there(self):
+        packing, link, target = self.dir / "p.xyz", self.dir / "link.csv", self.dir / "target.csv"
+        run("--n", 20, "--no-md", "--no-crunch", "--quiet", "--output", packing)
+        link.symlink_to("target.csv")
+        self.assertEqual(run("export", packing, "--profile", link).returncode, 0)
+        self.assertTrue(link.is_symlink() and target.read_text())
+
 
 if __name__ == "__main__":
     unittest.main()

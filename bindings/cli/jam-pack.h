@@ -121,7 +121,7 @@ typedef struct shear_path {
   int turn_count;
   double mode[2 * JAM_MAX_DIM * JAM_MAX_DIM]; /* then the stress, where some of it is held */
   size_t mode_count;
-  char text[600]; /* all of it, as it was given */
+  char text[600]; /* all of it, without blanks */
 } shear_path;
 int take_path(const options *o, const jam_system *sys, jam_shear_options *options, shear_path *path);
 

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include "jam-pack.h"
+#include "system.h"
 
 /* What comes before '=' of one part of --stress: the place of a component on or above the diagonal; -1: none. */
 static int component(const char *name, int dim) {
@@ -21,7 +22,7 @@ static int take_held(const char *given, int dim, jam_shear_options *options, she
   int edges = 0, tilts = 0;
   int64_t held = 0;
   do {
-    const int place = component(at, dim);
+    const int place = component(at += strspn(at, " "), dim);
     char *end = NULL;
     const double value = place < 0 ? 0 : strtod(at + 3, &end);
     if (!end || end == at + 3 || !isfinite(value) || (*end && *end != ',') || held >> place & 1) {
@@ -46,6 +47,44 @@ static int take_held(const char *given, int dim, jam_shear_options *options, she
   return 0;
 }
 
+/* The shortest text that is this number. */
+static void put_shortest(FILE *f, const char *before, double x) {
+  char text[32];
+  int digits = 14;
+  do snprintf(text, sizeof text, "%.*g", ++digits, x + 0.0);
+  while (strtod(text, NULL) != x && digits < 17);
+  fprintf(f, "%s%s", before, text);
+}
+
+/* The path in one form, whatever blanks and zeros it was given with: a checkpoint has it, and ends it at a blank. */
+static int describe(const options *o, int dim, int64_t held, shear_path *path) {
+  static const char axes[] = "xyz";
+  const double *const stress = path->mode + dim * dim;
+  char *text = NULL;
+  size_t size = 0;
+  int k, first = 1, bad = -1;
+  FILE *const f = open_text(&text, &size);
+  if (f) {
+    for (k = 0; k < path->turn_count; ++k) put_shortest(f, k ? "," : "", path->turns[k]);
+    for (k = 0; o->mode && k < dim * dim; ++k) put_shortest(f, k ? "," : ";--mode=", path->mode[k]);
+    for (k = 0; k < dim * dim; ++k) {
+      char name[24];
+      if (!(held >> k & 1)) continue;
+      snprintf(name, sizeof name, "%s%c%c=", first ? ";--stress=" : ",", axes[k / dim], axes[k % dim]);
+      put_shortest(f, name, stress[k]);
+      first = 0;
+    }
+  }
+  if (!f || close_text(f, &text, &size))
+    complain("out of memory");
+  else if (strlen(text) >= sizeof path->text)
+    complain("--to, --mode and --stress have more than %d characters", (int)sizeof path->text - 1);
+  else
+    strcpy(path->text, text), bad = 0;
+  free(text);
+  return bad;
+}
+
 int take_path(const options *o, const jam_system *sys, jam_shear_options *options, shear_path *path) {
   const int dim = info_of(sys).dim, numbers = dim * dim;
   int k;
@@ -65,11 +104,6 @@ int take_path(const options *o, const jam_system *sys, jam_shear_options *option
     complain("--mode is '%s', it must be %d numbers, parted by commas", o->mode, numbers);
     return -1;
   }
-  snprintf(path->text, sizeof path->text, "%s%s%s%s%s", o->to, o->mode ? ";--mode=" : "", o->mode ? o->mode : "",
-           o->stress ? ";--stress=" : "", o->stress ? o->stress : "");
-  if (strlen(path->text) + 1 == sizeof path->text) {
-    complain("--to, --mode and --stress have more than %d characters", (int)sizeof path->text - 2);
-    return -1;
-  }
-  return o->stress ? take_held(o->stress, dim, options, path) : 0;
+  if (o->stress && take_held(o->stress, dim, options, path)) return -1;
+  return describe(o, dim, o->stress ? options->components : 0, path);
 }

@@ -140,6 +140,23 @@ class Stops(InFolder):
         self.assertEqual(run("export", packing, "--profile", link).returncode, 0)
         self.assertTrue(link.is_symlink() and target.read_text())
 
+    def soft(self):
+        """A packing of soft disks below its jammed state, and the words that shear it."""
+        start = self.dir / "start.xyz"
+        run("--n", 40, "--dim", 2, "--diameters-ratio", 1.4, "--seed", 2, "--quiet", "--output", start)
+        return ["shear", start, "--alpha", 2]
+
+    def test_a_path_of_shear_is_its_numbers(self):
+        """Blanks and zeros of the words do not count when a shear goes on."""
+        soft, state = self.soft(), self.dir / "state"
+        words = ("--to", " 0.01, -0.010", "--mode", " 0,1, 0, 0", "--stress", " yy=0.010")
+        same = ("--to", "1e-2,-1e-2", "--mode", "0,1,0,0", "--stress", "yy=1e-2")
+        for path, other in ((words, same), (same, words)):
+            done = run(*soft, *path, "--checkpoint", state, "--checkpoint-every", 1e-9, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            done = run("shear", "--resume", state, "--alpha", 2, *other, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()

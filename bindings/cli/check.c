@@ -6,11 +6,21 @@
 enum { CHECK_YES = 0, CHECK_NO = 1, CHECK_REFUSED = 2, CHECK_UNDECIDED = 3 };
 
 /* Proofs speak of the contacts of the file's packing. */
-static jam_status write_proofs(jam_system *sys, const options *o) {
-  jam_status status = jam_contacts_from_geometry(sys, NULL, NULL);
-  if (status >= 0 && o->proof) status = jam_write_proof(sys, o->proof, JAM_RIGIDITY_COLLECTIVE, NULL, 0);
-  if (status >= 0 && o->strict_proof) status = jam_write_proof(sys, o->strict_proof, JAM_RIGIDITY_STRICT, NULL, 0);
-  return status;
+static jam_status write_proof(jam_system *sys, const char *path, int32_t kind) {
+  const jam_status status = jam_contacts_from_geometry(sys, NULL, NULL);
+  return status < 0 || status == JAM_CANCELLED ? status : jam_write_proof(sys, path, kind, NULL, 0);
+}
+
+/* 0, or an exit code after a message where the file was asked for and cannot be written. */
+static int put_proof(jam_system *sys, const char *path, int32_t kind, int32_t verdict) {
+  jam_status status;
+  if (!path) return 0;
+  if (verdict != JAM_VERDICT_YES)
+    complain("%s is not written: the packing is not %sjammed%s", path, kind == JAM_RIGIDITY_STRICT ? "strictly " : "",
+             verdict == JAM_VERDICT_NO ? "" : " for certain");
+  if (verdict != JAM_VERDICT_YES) return 0;
+  status = write_proof(sys, path, kind);
+  return !has_failed(status) ? 0 : status == JAM_CANCELLED ? EXIT_OUTPUT : code_of(status);
 }
 
 /* The stress tensor of a jammed packing, over its pressure; the number of its components, 0 where there is none. */
@@ -75,15 +85,14 @@ static int write_json(jam_system *sys, const options *o, int code, const jam_che
 }
 
 /* The proof, then the text or the JSON; returns the exit code. */
-static int say(jam_system *sys, const options *o, jam_status status, const jam_check_report *report) {
-  const int32_t verdict = o->strict ? report->strictly_jammed : report->jammed;
+static int say(jam_system *sys, const options *o, const jam_check_report *report) {
+  const int strict = o->strict || o->strict_proof;
+  const int32_t verdict = strict ? report->strictly_jammed : report->jammed;
   int code = verdict == JAM_VERDICT_YES ? CHECK_YES : verdict == JAM_VERDICT_NO ? CHECK_NO : CHECK_UNDECIDED;
-  const char *const proof = o->proof ? o->proof : o->strict_proof;
+  const int proof = put_proof(sys, o->proof, JAM_RIGIDITY_COLLECTIVE, report->jammed);
+  const int strict_proof = put_proof(sys, o->strict_proof, JAM_RIGIDITY_STRICT, report->strictly_jammed);
   double stress[JAM_MAX_DIM * JAM_MAX_DIM];
-  if (proof && status != JAM_OK)
-    complain("%s is not written: the packing is not jammed", proof);
-  else if (proof && has_failed(write_proofs(sys, o)))
-    code = failure_code();
+  if (proof || strict_proof) code = proof ? proof : strict_proof;
   if (o->json) return write_json(sys, o, code, report) ? EXIT_OUTPUT : code;
   complain_notes(sys); /* what reading assumed, such as periodic axes */
   if (!o->quiet) puts(jam_check_text(report));
@@ -101,18 +110,19 @@ int check_file(const options *o) {
   if (!sys) return CHECK_UNDECIDED;
   report.struct_size = sizeof report;
   cancel_on_signal(sys);
+  jam_set_progress(sys, stop_late, (void *)o);
   status = jam_check_options_init(&check, sizeof check);
-  check.wall_time = o->wall_time;
+  check.wall_time = seconds_until(o->given.deadline);
   check.prove = o->prove || o->proof || o->strict_proof;
   if (status >= 0) status = jam_check_packing(sys, &check, &report);
   if (status == JAM_CANCELLED) {
-    complain("interrupted before the verdict");
+    complain("interrupted by Ctrl-C or --wall-time, before the verdict");
     code = CHECK_UNDECIDED;
   } else if (status < 0) {
     complain("%s", jam_last_error());
     complain_notes(sys);
   } else {
-    code = say(sys, o, status, &report);
+    code = say(sys, o, &report);
   }
   cancel_on_signal(NULL);
   return leave(sys, code);

@@ -16,8 +16,10 @@ static void find_network(const options *o, jam_system *sys, network *found, int 
   jam_status status;
   size_t numbers = 0;
   cancel_on_signal(sys);
+  jam_set_progress(sys, stop_late, (void *)o);
   status = isfinite(o->contact_gap) ? jam_contacts_by_distance(sys, o->contact_gap)
                                     : jam_contacts_from_geometry(sys, NULL, NULL);
+  jam_set_progress(sys, NULL, NULL);
   cancel_on_signal(NULL);
   found->stopped = status == JAM_CANCELLED;
   found->known = status >= 0 && !found->stopped;
@@ -73,13 +75,13 @@ int export_file(const options *o) {
   if (wanted || (o->stl && !isfinite(o->stl_shrink))) find_network(o, sys, &found, wanted);
   if (!found.known)
     note_omitted(o->contacts), note_omitted(o->spectrum), note_omitted(o->gaps), note_omitted(o->structure);
-  if (write_files(sys, o, found.known, seconds_now() + o->wall_time, &cut_short))
+  if (write_files(sys, o, found.known, &cut_short))
     code = failure_code();
   else
     code = found.stopped || cut_short ? EXIT_EARLY : tables && !found.known ? EXIT_FAILED : EXIT_DONE;
   if (o->json) {
     if (write_json(o, sys, code, &found) && !code) code = EXIT_OUTPUT;
-  } else if (!o->quiet) {
+  } else if (!o->quiet && !o->given.stdout_taken) {
     each_output(o, print_path, NULL);
     if (o->stl && !is_omitted(o->stl) && !wanted && found.known && found.contacts == 0)
       printf("  network   none: the mesh joins no spheres\n");

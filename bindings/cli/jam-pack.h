@@ -33,6 +33,11 @@ typedef struct given {
   char **words;                           /* the command line, for the report */
   int word_count;
   const jam_pack_host *host; /* NULL: jam-pack alone */
+  double deadline;           /* of --wall-time, on the clock of seconds_now */
+  int stdout_taken;          /* by an output or JSON: no summary is printed */
+  jam_diameters_options law; /* of --sizes LAW with its curve, read once: a pipe gives it once */
+  double *curve;             /* NULL: there is no law, or it could not be read */
+  size_t curve_len;
 } given;
 
 #include "options_table.h"
@@ -77,11 +82,18 @@ int end_progress(terminal *t, const options *o);
 
 /* options.c: returns 0 to go on, or 1 + the exit code when there is nothing left to do. */
 int parse_options(int argc, char **argv, const jam_pack_host *host, options *o);
+/* outputs.c: each int of settle_ is 0, or -1 after a message on stderr. */
 /* Calls f for every file that will be written, until it returns something else than 0. */
 int each_output(const options *o, int (*f)(const char *path, void *with), void *with);
+/* Standard output takes one of the outputs that can go there; --json is one. */
+int settle_stdout(options *o);
+/* Every output has its own file, and none that of the input. A checkpoint may go where the run was resumed from. */
+int settle_files(const options *o);
+int settle_crunched(const options *o); /* no output without the crunch that it shows */
 
 /* settle.c: 0, or -1 after a message on stderr. Refuses options that contradict each other, and completes the rest. */
 int settle(options *o);
+int settle_cell(const options *o); /* whether --cell has the numbers of d; 0 or -1 likewise */
 /* The word of a choice that has this number. */
 const char *word_of_choice(const char *option, int number, char word[32]);
 int is_named(const options *o, const char *name); /* whether the command line has this option, without dashes */
@@ -94,14 +106,17 @@ int is_host_format(const options *o, const char *path); /* whether the host read
 int settle_formats(const options *o);
 int check_formats(const options *o, const jam_system *sys);
 
-/* The options that give what a file lacks, as a layout of jam_read_as. */
-const char *layout_of(const options *o);
-/* start.c: start returns 0 or an exit code after a message on stderr. */
-int start(const options *o, jam_progress_fn stop, jam_system **sys);
+/* start.c: start returns 0 or an exit code after a message on stderr. *mean: of the diameters that --sizes or the file
+ * gives, NAN without either. */
+int start(const options *o, jam_system **sys, double *mean);
 /* The packing of --input as it is: spheres may overlap, as in every file with few digits. 0, and *sys NULL when it was
  * interrupted; else an exit code after a message on stderr. */
 int read_as_it_is(const options *o, jam_system **sys);
 void complain_notes(const jam_system *sys); /* those of jam_notes, on stderr */
+
+/* resume.c: 0, or an exit code after a message where the options are not those of the job that left this checkpoint.
+ * *mean: of the diameters of --sizes, where it is given. */
+int check_resumed(const options *o, const jam_system *sys, double *mean);
 
 /* sizes.c: each int is 0, or -1 after a message on stderr. */
 int take_sizes(const char *value, options *o);
@@ -125,10 +140,12 @@ typedef struct shear_path {
 } shear_path;
 int take_path(const options *o, const jam_system *sys, jam_shear_options *options, shear_path *path);
 
-/* Both with the shells of --least-distance. */
-double mean_given(const options *o, const jam_system *sys);     /* of diameters; NAN where no unit was given */
-int make_diameters(const options *o, double **out, int64_t *n); /* *out NULL: all equal; the caller frees it */
+/* With the shells of --least-distance. *out NULL: all equal; the caller frees it. */
+int make_diameters(const options *o, double **out, int64_t *n);
+double mean_of(const double *diameters, int64_t n);
 void fill_cell(const options *o, double *cell); /* (d, d): the vectors of --cell, or of the cube of --box */
+/* A small sphere in the middle of the cell of the options, between their walls: what the library makes of this cell. */
+int make_scene(const options *o, jam_system **sys);
 
 /* report.c: each returns 0, or -1 after a message on stderr. path "-" is standard output. */
 int write_report(const options *o, const outcome *result, const char *path);
@@ -147,6 +164,7 @@ const char *messages(void); /* of this command line so far */
 void forget_messages(void);
 /* 1 after a message when a call failed or was stopped: then it has written nothing. Notes the exit code that fits. */
 int has_failed(jam_status status);
+int code_of(jam_status status);      /* the exit code of a call that failed */
 void note_failure(int code);         /* the first one counts */
 void note_omitted(const char *path); /* of an option: this file is not written; may be NULL */
 int is_omitted(const char *path);
@@ -200,14 +218,16 @@ int put_bytes(int descriptor, const char *text, size_t size);
 
 /* verbs.c: Ctrl-C and SIGTERM cancel the calls on a system, also where they came before; NULL: on none. */
 void cancel_on_signal(jam_system *sys);
-void watch_signals(jam_system *sys);                             /* the same from now on */
-int32_t stop_if_asked(const jam_progress *progress, void *user); /* a progress callback */
+void watch_signals(jam_system *sys); /* the same from now on */
+/* Progress callbacks. The second one, with the options, stops at --wall-time too. */
+int32_t stop_if_asked(const jam_progress *progress, void *user);
+int32_t stop_late(const jam_progress *progress, void *options);
 
 /* write.c: all that the options ask for, and the summary. Returns the exit code, which is result->code where all is
- * written. deadline: on the clock of seconds_now, of tables that take long. */
-int write_all(jam_system *sys, const options *o, double deadline, outcome *result);
+ * written. */
+int write_all(jam_system *sys, const options *o, outcome *result);
 /* The files of the packing and, where its network is known, of the network. */
-int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short);
+int write_files(jam_system *sys, const options *o, int known, int *cut_short);
 
 /* pack.c, shear.c, check.c, info.c, export.c: what the verbs do; each returns the exit code. */
 int run_job(const options *o); /* pack, compress, crunch */

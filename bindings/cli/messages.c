@@ -41,6 +41,8 @@ static const struct {
     {"jam_read_checkpoint", "--resume"},
     {"jam_read", "--input"},
     {"jam_crunch", "the verb crunch"},
+    {"wall_time", "--wall-time"},
+    {"call again to continue", "continue from a checkpoint by --resume"},
 };
 enum { PHRASES = sizeof phrases / sizeof *phrases };
 
@@ -127,7 +129,7 @@ void note_failure(int code) {
 int failure_code(void) { return said.code ? said.code : EXIT_OUTPUT; }
 
 /* A value that the library refuses is a wrong command line. */
-static int code_of(jam_status status) {
+int code_of(jam_status status) {
   return status == JAM_CANCELLED    ? EXIT_EARLY
          : status == JAM_E_ARGUMENT ? EXIT_USAGE
          : status == JAM_E_IO       ? EXIT_OUTPUT

@@ -113,7 +113,7 @@ static jam_status run_crunch(jam_system *sys, const options *o, double wall_time
 
 /* Dynamics kept on disk before the crunch: a killed crunch then costs the crunch only. */
 static void keep(const jam_system *sys, const char *path) {
-  if (path && (kind_of(path) == KIND_NONE || kind_of(path) == KIND_FILE)) jam_write(sys, path, JAM_FORMAT_AUTO);
+  if (path && appears_whole(path)) jam_write(sys, path, JAM_FORMAT_AUTO);
 }
 
 /* Dynamics that end before their aim are no reason to stop, but never go unseen. */
@@ -140,7 +140,7 @@ static int lies_above(const jam_system *sys, double density) {
 }
 
 static jam_status work(jam_system *sys, const options *o, terminal *t, outcome *result) {
-  const double deadline = t->begin + o->wall_time;
+  const double deadline = o->given.deadline;
   char name[64] = "NVE";
   jam_status status = JAM_OK;
   int k, stages_left = o->given.stage_count;
@@ -177,7 +177,7 @@ static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
   const jam_info info = info_of(sys);
   char line[200];
   double density;
-  if (!(o->given.density > 0) || !o->given.sizes || o->given.n || o->resume || !(mean > 0)) return;
+  if (!(o->given.density > 0) || !o->given.sizes || o->given.n || !(mean > 0)) return;
   density = info.packing_fraction * pow(mean / info.diameter_mean, info.dim);
   if (fabs(density / o->given.density - 1) < 1e-11) return;
   if (o->least_distance > 0)
@@ -190,14 +190,13 @@ static void take_density_of_sizes(options *o, jam_system *sys, double mean) {
              "%lld whole spheres of --sizes have the packing fraction %.9g, nearest to the requested %g: they grow to "
              "it",
              (long long)info.n, density, o->given.density);
-  jam_add_note(sys, line);
+  if (!strstr(jam_notes(sys), line)) jam_add_note(sys, line); /* a checkpoint has it */
   o->given.density = density;
 }
 
 static void copy_note(const char *line, int warns, void *to) {
-  char whole[1024];
-  snprintf(whole, sizeof whole, "%s%s", warns ? "warning: " : "", line);
-  jam_add_note(to, whole);
+  (void)warns;
+  jam_add_note(to, line);
 }
 
 /* The spheres without the shells that kept them apart. Growth that fell short has left both smaller by one factor. */
@@ -244,11 +243,11 @@ int run_job(const options *given) {
   jam_radii_options radii;
   memset(&result, 0, sizeof result);
   if (o->radii && take_radii(o, &radii)) return EXIT_USAGE;
-  code = start(o, stop_if_asked, &sys);
+  code = start(o, &sys, &result.diameter_given);
   if (!code && (o->input || o->resume || o->dim > 3 || o->given.cell_count || o->n == 1 || o->walls || o->container) &&
       check_formats(o, sys))
     code = EXIT_USAGE;
-  if (!code) print_warnings(jam_notes(sys)), result.diameter_given = mean_given(o, sys);
+  if (!code) print_warnings(jam_notes(sys));
   if (!code) take_density_of_sizes(o, sys, result.diameter_given);
   watch_signals(sys);
   if (!code && start_progress(&t, o, sys)) code = EXIT_OUTPUT;
@@ -275,8 +274,8 @@ int run_job(const options *given) {
   else if (result.fell_short)
     complain("dynamics fell short of their aim: see the warning above");
   result.code = bad                                                            ? EXIT_OUTPUT
-                : status < 0                                                   ? EXIT_FAILED
+                : status < 0                                                   ? code_of(status)
                 : status > 0 || stop_if_asked(NULL, NULL) || result.fell_short ? EXIT_EARLY
                                                                                : EXIT_DONE;
-  return leave(sys, write_all(sys, o, t.begin + o->wall_time, &result));
+  return leave(sys, write_all(sys, o, &result));
 }

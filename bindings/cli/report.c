@@ -221,8 +221,8 @@ void print_summary(const options *o, const outcome *result) {
   each_note(result->notes, print_note, NULL);
   if (fabs(info->diameter_mean / result->diameter_given - 1.0) > 1e-9)
     printf("  diameters are %.9g times those %s, mean %.6g: the cell keeps its size\n",
-           info->diameter_mean / result->diameter_given, o->input || o->resume ? "of the file" : "of --sizes",
-           info->diameter_mean);
+           info->diameter_mean / result->diameter_given,
+           o->given.sizes || o->given.diameters_file ? "of --sizes" : "of the file", info->diameter_mean);
   if (result->has_md)
     printf("  dynamics  p = %.4g after %.3g collisions in %.2f s (%s)\n", result->pressure, (double)result->collisions,
            result->seconds_md, jam_stop_string(result->md_stop));

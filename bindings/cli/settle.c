@@ -1,98 +1,17 @@
-/* What the options of one command line say together: contradictions, what has no effect, files. */
-#define _XOPEN_SOURCE 700
-#include <errno.h>
+/* What the options of one command line say together: contradictions, and what has no effect. */
 #include <math.h>
 #include <stddef.h>
-#include <stdlib.h>
+#include <stdio.h>
 #include <string.h>
-#include <strings.h>
 #define JAM_PACK_OPTIONS_TABLE
 #include "jam-pack.h"
-#include "system.h"
 
 #define ROWS (sizeof table / sizeof *table)
-
-/* One file under two names, but for pipes and devices, which take what comes. */
-static int same(const char *a, const char *b) {
-  char *x, *y;
-  int equal;
-  if (!a || !b || !strcmp(a, "-") || !strcmp(b, "-")) return 0;
-  if (kind_of(a) == KIND_FOLDER || kind_of(a) == KIND_OTHER) return 0;
-  x = resolve(a);
-  y = resolve(b);
-  equal = x && y ? !strcmp(x, y) : !strcmp(a, b);
-  free(x);
-  free(y);
-  return equal;
-}
-
-static const char *file_of(const options *o, const option_row *row) {
-  return *(const char *const *)((const char *)o + row->place);
-}
 
 int is_named(const options *o, const char *name) {
   size_t k;
   for (k = 0; k < ROWS; ++k)
     if (!strcmp(table[k].name + 2, name)) return o->named[k];
-  return 0;
-}
-
-int each_output(const options *o, int (*f)(const char *path, void *with), void *with) {
-  size_t k;
-  for (k = 0; k < sizeof table / sizeof *table; ++k)
-    if (table[k].kind == TAKE_OUTPUT && file_of(o, &table[k]) && f(file_of(o, &table[k]), with)) return -1;
-  if (o->vtk && !is_omitted(o->vtk)) {
-    char first[4096];
-    snprintf(first, sizeof first, "%s.vtp", o->vtk);
-    return f(first, with) ? -1 : 0;
-  }
-  return 0;
-}
-
-/* Standard output takes one of the outputs that can go there; --json is one. */
-static int settle_stdout(const options *o) {
-  const option_row *row, *const end = table + ROWS;
-  const char *taken = o->json ? "--json" : NULL;
-  for (row = table; row < end; ++row) {
-    if (row->kind != TAKE_OUTPUT || !is_named(o, row->name + 2) || strcmp(file_of(o, row), "-")) continue;
-    if (!(row->flags & TAKES_STDOUT)) {
-      complain("%s -: it cannot go to standard output: name a file", row->name);
-      return -1;
-    }
-    if (taken) {
-      complain("%s - contradicts %s: both write to standard output", row->name, taken);
-      return -1;
-    }
-    taken = row->name;
-  }
-  return 0;
-}
-
-/* Every output to its own file, none over the input, and none without the crunch that it shows. A checkpoint may go
- * where the run was resumed from. */
-static int settle_files(const options *o) {
-  const option_row *a, *b, *const end = table + sizeof table / sizeof *table;
-  for (a = table; a < end; ++a) {
-    if (a->kind != TAKE_OUTPUT || !file_of(o, a)) continue;
-    for (b = table; b < a; ++b)
-      if (b->kind == TAKE_OUTPUT && same(file_of(o, a), file_of(o, b))) {
-        complain("%s and %s must be different files", b->name, a->name);
-        return -1;
-      }
-    if ((strcmp(a->name, "--output") && same(o->input, file_of(o, a))) ||
-        (strcmp(a->name, "--checkpoint") && same(o->resume, file_of(o, a))) ||
-        same(o->given.diameters_file, file_of(o, a))) {
-      complain("%s would overwrite the input", a->name);
-      return -1;
-    }
-    if (o->no_crunch && a->flags & AFTER_CRUNCH) {
-      complain("%s needs the crunch, which %s omits", a->name,
-               isfinite(o->porosity)           ? "--porosity"
-               : isfinite(o->packing_fraction) ? "--packing-fraction"
-                                               : "--no-crunch");
-      return -1;
-    }
-  }
   return 0;
 }
 
@@ -120,7 +39,7 @@ static int settle_density(options *o) {
   return 0;
 }
 
-static int settle_cell(const options *o) {
+int settle_cell(const options *o) {
   const int d = (int)o->dim, count = o->given.cell_count;
   if (!count || o->input || count == d || count == d * d) return 0;
   complain("--cell has %d numbers, in d = %d it needs %d sides or %d components of vectors", count, d, d, d * d);
@@ -264,7 +183,7 @@ int settle(options *o) {
   const int stages_given = g->stage_count;
   if (settle_verb(o)) return -1;
   if (o->json && o->given.verb <= VERB_CRUNCH) o->report = "-";
-  if (settle_density(o) || settle_files(o) || settle_formats(o)) return -1;
+  if (settle_density(o) || settle_files(o) || settle_crunched(o) || settle_formats(o)) return -1;
   if (o->no_md && (stages_given || o->nve > 0)) {
     complain("--no-md contradicts %s", stages_given ? "--growth" : "--nve");
     return -1;
@@ -277,7 +196,8 @@ int settle(options *o) {
     complain("--model euclid contradicts %s", isfinite(o->zeta) ? "--zeta" : "--plant");
     return -1;
   }
-  if (settle_effects(o) || settle_stdout(o) || settle_cell(o) || settle_host(o) || settle_walls(o) || settle_crunch(o))
+  if (settle_effects(o) || settle_stdout(o) || (!o->resume && settle_cell(o)) || settle_host(o) || settle_walls(o) ||
+      settle_crunch(o))
     return -1;
   g->n = o->n != NOT_GIVEN;
   if (!g->n) o->n = 1024;

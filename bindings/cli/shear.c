@@ -27,7 +27,7 @@ typedef struct shear_job {
   char *table; /* rows of the run that is continued, with the heading */
   double (*row)[JAM_SHEAR_COLUMNS];
   size_t row_count, row_room; /* of this run */
-  double kept, deadline;      /* on the clock of seconds_now: last checkpoint, --wall-time */
+  double kept;                /* on the clock of seconds_now: the last checkpoint */
 } shear_job;
 
 static const char heading[] =
@@ -170,7 +170,7 @@ static jam_status work(shear_job *job, terminal *t) {
       job->begun = NULL;
       if (jam_copy(job->sys, &job->begun) < 0) return JAM_E_MEMORY;
     }
-    job->options.wall_time = seconds_until(job->deadline);
+    job->options.wall_time = seconds_until(job->o->given.deadline);
     job->reached = job->at;
     status = turn == 0 ? JAM_OK
                        : jam_shear(job->sys, &job->options, &turn, 1, job->path.mode, job->path.mode_count, &job->last);
@@ -241,16 +241,17 @@ static int finish(shear_job *job, int code) {
   int cut_short = 0;
   if (code == EXIT_EARLY && keep_state(job, job->begun)) code = EXIT_OUTPUT;
   if (put_rows(job)) code = EXIT_OUTPUT;
-  if (write_files(job->sys, o, job->last.rigid, seconds_now() + o->wall_time, &cut_short)) code = failure_code();
+  if (write_files(job->sys, o, job->last.rigid, &cut_short)) code = failure_code();
   if (json && write_json(job, strain, code, json)) code = EXIT_OUTPUT;
-  if (!o->quiet && !(json && !strcmp(json, "-"))) print_end(job, strain);
+  if (!o->quiet && !o->given.stdout_taken) print_end(job, strain);
   return end_stdout(code);
 }
 
 /* The packing, and where a job that is continued has come to. */
 static int begin(shear_job *job) {
   const options *o = job->o;
-  const int code = isfinite(o->alpha) && !o->resume ? read_as_it_is(o, &job->sys) : start(o, stop_if_asked, &job->sys);
+  double mean;
+  const int code = isfinite(o->alpha) && !o->resume ? read_as_it_is(o, &job->sys) : start(o, &job->sys, &mean);
   if (code || !job->sys) return code ? code : EXIT_FAILED;
   job->at.first_event = job->at.peak_stress = job->at.peak_strain = NAN;
   jam_shear_options_init(&job->options, sizeof job->options);
@@ -270,7 +271,7 @@ int shear_file(const options *o) {
   terminal t = {"start", seconds_now(), 0, 0, 0, 0, NULL, NULL, NULL};
   jam_status status = JAM_OK;
   int bad, code = begin(&job);
-  job.kept = t.begin, job.deadline = t.begin + o->wall_time;
+  job.kept = t.begin;
   watch_signals(job.sys);
   if (!code && start_progress(&t, o, job.sys)) code = EXIT_OUTPUT;
   if (!code) {
@@ -278,7 +279,7 @@ int shear_file(const options *o) {
     watch_signals(NULL);
     bad = end_progress(&t, o);
     if (status != JAM_OK) complain("%s", jam_last_error());
-    code = bad ? EXIT_OUTPUT : status < 0 ? EXIT_FAILED : status > 0 ? EXIT_EARLY : EXIT_DONE;
+    code = bad ? EXIT_OUTPUT : status < 0 ? code_of(status) : status > 0 ? EXIT_EARLY : EXIT_DONE;
     if (status >= 0) code = finish(&job, code);
   }
   watch_signals(NULL);

@@ -91,14 +91,20 @@ static int read_diameters(const char *path, double **out, int64_t *count) {
   return 0;
 }
 
-static int read_law(const char *text, jam_diameters_options *law, double **curve, size_t *curve_len) {
-  *curve = NULL;
-  if (has_failed(jam_parse_diameters(text, law, NULL, 0, curve_len))) return -1;
-  if (!*curve_len) return 0;
-  *curve = malloc(*curve_len * sizeof **curve);
-  if (*curve) return has_failed(jam_parse_diameters(text, law, *curve, *curve_len, curve_len));
-  complain("out of memory");
-  return -1;
+/* The law, and its curve in one reading where there is room for it, as in all but the longest curves: a pipe gives no
+ * second one. */
+static jam_status read_law(const char *text, given *g) {
+  jam_status status;
+  size_t room = 4096;
+  do {
+    double *const more = realloc(g->curve, room * sizeof *more);
+    if (!more) return JAM_E_MEMORY;
+    g->curve = more;
+    jam_diameters_options_init(&g->law, sizeof g->law);
+    g->curve_len = 0;
+    status = jam_parse_diameters(text, &g->law, g->curve, room, &g->curve_len);
+  } while (g->curve_len > room && (room = g->curve_len));
+  return status;
 }
 
 /* Of a (d, d) matrix, which is lost: elimination with row pivots. */
@@ -123,32 +129,36 @@ static double determinant(double *a, int d) {
   return product;
 }
 
-/* Of the container in this cell, as the library has it: of a system with a small sphere in the middle. */
-static int find_room(const options *o, const double *cell, double *volume) {
-  double x[JAM_MAX_DIM] = {0}, size = HUGE_VAL;
+int make_scene(const options *o, jam_system **sys) {
+  double cell[JAM_MAX_DIM * JAM_MAX_DIM], x[JAM_MAX_DIM] = {0}, size = HUGE_VAL;
   const size_t d = (size_t)o->dim;
   size_t k;
   jam_create_options create;
   jam_start start = {.struct_size = sizeof start, .positions = x, .diameters = &size, .diameters_len = 1, .cell = cell};
-  jam_info info = {.struct_size = sizeof info};
-  jam_system *sys = NULL;
-  int bad;
+  fill_cell(o, cell);
   for (k = 0; k < d * d; ++k) x[k % d] += 0.5 * cell[k];
   for (k = 0; k < d; ++k) size = fmin(size, 1e-3 * fabs(cell[k * d + k]));
   jam_create_options_init(&create, sizeof create);
   create.dim = (int32_t)d;
   create.container = (int32_t)o->container;
+  create.walls = (int32_t)o->walls; /* the words of the table stand in the order of the bits */
   start.positions_len = d, start.cell_len = d * d;
-  bad = has_failed(jam_create(&create, &start, &sys)) || has_failed(jam_get_info(sys, &info));
+  return has_failed(jam_create(&create, &start, sys)) ? -1 : 0;
+}
+
+/* Of the container in the cell, as the library has it. */
+static int find_room(const options *o, double *volume) {
+  jam_system *sys = NULL;
+  const int bad = make_scene(o, &sys);
+  *volume = info_of(sys).volume;
   jam_destroy(sys);
-  *volume = info.volume;
   return bad;
 }
 
 static int find_volume(const options *o, double *volume) {
   double cell[JAM_MAX_DIM * JAM_MAX_DIM];
   fill_cell(o, cell);
-  if (o->container != JAM_CONTAINER_BRICK) return find_room(o, cell, volume);
+  if (o->container != JAM_CONTAINER_BRICK) return find_room(o, volume);
   *volume = determinant(cell, (int)o->dim);
   if (*volume > 0 && *volume < INFINITY) return 0;
   complain("the cell has the volume %g: its vectors are left-handed, or lie in one plane", *volume);
@@ -156,29 +166,27 @@ static int find_volume(const options *o, double *volume) {
 }
 
 static int draw_law(const options *o, double **out, int64_t *n) {
-  jam_diameters_options law;
-  double *curve = NULL;
-  size_t curve_len = 0, count = 0, k;
-  int bad;
-  jam_diameters_options_init(&law, sizeof law);
+  const given *const g = &o->given;
+  const double *const curve = g->curve_len ? g->curve : NULL;
+  jam_diameters_options law = g->law;
+  size_t count = 0, k;
+  if (!g->curve) return has_failed(jam_parse_diameters(g->sizes, &law, NULL, 0, &count)) ? -1 : 0; /* why */
   law.dim = (int32_t)o->dim;
   law.seed = o->seed;
-  bad = read_law(o->given.sizes, &law, &curve, &curve_len);
-  if (o->given.density > 0 && !o->given.n && (o->given.cell_count || is_named(o, "box"))) {
-    law.packing_fraction = o->given.density;
-    bad = bad || find_volume(o, &law.cell_volume);
+  if (g->density > 0 && !g->n && (g->cell_count || is_named(o, "box"))) {
+    law.packing_fraction = g->density;
+    if (find_volume(o, &law.cell_volume)) return -1;
   } else
     law.n = *n;
-  bad = bad || has_failed(jam_diameters(&law, curve, curve_len, NULL, 0, &count));
-  if (!bad && !(*out = malloc(count * sizeof **out))) {
+  if (has_failed(jam_diameters(&law, curve, g->curve_len, NULL, 0, &count))) return -1;
+  if (!(*out = malloc(count * sizeof **out))) {
     complain("out of memory");
-    bad = 1;
+    return -1;
   }
-  bad = bad || has_failed(jam_diameters(&law, curve, curve_len, *out, count, &count));
-  for (k = 0; !bad && k < count; ++k) (*out)[k] += o->least_distance;
-  free(curve);
+  if (has_failed(jam_diameters(&law, curve, g->curve_len, *out, count, &count))) return -1;
+  for (k = 0; k < count; ++k) (*out)[k] += o->least_distance;
   *n = (int64_t)count;
-  return bad ? -1 : 0;
+  return 0;
 }
 
 void fill_cell(const options *o, double *cell) {
@@ -213,26 +221,21 @@ int make_diameters(const options *o, double **out, int64_t *n) {
   return 0;
 }
 
-double mean_given(const options *o, const jam_system *sys) {
-  const jam_info info = info_of(sys);
-  double *diameters = NULL, sum = 0.0;
-  int64_t n = 0, k;
-  if (o->input || o->resume) return info.diameter_mean;
-  if (!o->given.sizes && !o->given.diameters_file) return NAN;
-  n = info.n;
-  if (make_diameters(o, &diameters, &n)) return NAN;
+double mean_of(const double *diameters, int64_t n) {
+  double sum = 0;
+  int64_t k;
   for (k = 0; k < n; ++k) sum += diameters[k];
-  free(diameters);
   return sum / (double)n;
 }
 
 /* A law, or the name of a file of diameters. A file that the law names may be missing: that is no wrong command line.
  */
 int take_sizes(const char *value, options *o) {
-  jam_diameters_options law;
-  size_t rows;
-  jam_status status = jam_diameters_options_init(&law, sizeof law);
-  status = jam_parse_diameters(value, &law, NULL, 0, &rows);
+  const jam_status status = read_law(value, &o->given);
+  if (status < 0) {
+    free(o->given.curve);
+    o->given.curve = NULL;
+  }
   if (status >= 0 || status == JAM_E_IO || status == JAM_E_FORMAT)
     o->given.sizes = value;
   else if (*value && (!strchr(value, ':') || kind_of(value) == KIND_FILE))

@@ -3,25 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 #include "jam-pack.h"
+#include "system.h"
 
 /* A start below the density that it is to grow to. */
 static double start_fraction(const options *o) {
   const double usual = START_FRACTION(o->dim);
   return o->phi0 > 0 || !(o->given.density > 0 && o->given.density < usual) ? o->phi0 : o->given.density;
-}
-
-/* The options of a killed job are given again: those that the checkpoint holds must be the same. */
-static int check_resumed(const options *o, const jam_system *sys) {
-  const jam_info info = info_of(sys);
-  if (o->given.n && o->n != info.n)
-    complain("--n is %lld, the checkpoint has %lld spheres", (long long)o->n, (long long)info.n);
-  else if (is_named(o, "dim") && o->dim != info.dim)
-    complain("--dim is %lld, the checkpoint has d = %d", (long long)o->dim, (int)info.dim);
-  else if (is_named(o, "seed") && o->seed != info.seed)
-    complain("--seed is %lld, the checkpoint has seed %lld", (long long)o->seed, (long long)info.seed);
-  else
-    return 0;
-  return EXIT_USAGE;
 }
 
 static void complain_note(const char *line, int warns, void *with) {
@@ -31,12 +18,32 @@ static void complain_note(const char *line, int warns, void *with) {
 
 void complain_notes(const jam_system *sys) { each_note(jam_notes(sys), complain_note, NULL); }
 
-const char *layout_of(const options *o) {
-  static char text[2048];
-  snprintf(text, sizeof text, "%s%s%s%s%s%s", o->given.cell_text ? "cell=" : "",
-           o->given.cell_text ? o->given.cell_text : "", o->origin ? " origin=" : "", o->origin ? o->origin : "",
-           o->columns ? " columns=" : "", o->columns ? o->columns : "");
-  return text;
+/* A word of a layout of jam_read_as, which blanks would end: those behind commas are left out. */
+static void put_fact(FILE *f, const char *name, const char *value) {
+  const char *at;
+  if (!value) return;
+  fprintf(f, " %s=", name);
+  for (at = value; *at; ++at)
+    if (*at != ' ' || !(at == value || strchr(", ", at[-1]))) fputc(*at, f);
+}
+
+/* The file, with the options that give what it lacks. */
+static jam_status read_input(const options *o, const jam_create_options *create, jam_system **sys) {
+  char *layout = NULL;
+  size_t size = 0;
+  jam_status status = JAM_E_MEMORY;
+  FILE *const f = open_text(&layout, &size);
+  if (f) {
+    put_fact(f, "cell", o->given.cell_text);
+    put_fact(f, "origin", o->origin);
+    put_fact(f, "columns", o->columns);
+  }
+  if (!f || close_text(f, &layout, &size))
+    jam_set_error("out of memory for the options of the file");
+  else
+    status = jam_read_as(o->input, layout, create, stop_if_asked, NULL, sys);
+  free(layout);
+  return status;
 }
 
 static jam_create_options create_options(const options *o, int32_t overlap) {
@@ -55,7 +62,7 @@ static jam_create_options create_options(const options *o, int32_t overlap) {
 static void complain_assumptions(const options *o) {
   const jam_create_options create = create_options(o, JAM_OVERLAP_ALLOW);
   jam_system *sys = NULL;
-  if (jam_read_as(o->input, layout_of(o), &create, stop_if_asked, NULL, &sys) >= 0 && sys) complain_notes(sys);
+  if (read_input(o, &create, &sys) >= 0 && sys) complain_notes(sys);
   jam_destroy(sys);
 }
 
@@ -112,32 +119,34 @@ static jam_status create_start(const options *o, jam_create_options *create, con
   return status;
 }
 
-int start(const options *o, jam_progress_fn stop, jam_system **sys) {
+int start(const options *o, jam_system **sys, double *mean) {
   jam_create_options create = create_options(o, o->shrink ? JAM_OVERLAP_SHRINK : JAM_OVERLAP_REFUSE);
   jam_start from = {.struct_size = sizeof from};
   double *diameters = NULL, cell[JAM_MAX_DIM * JAM_MAX_DIM];
   jam_status status = JAM_OK;
+  *mean = NAN;
   create.seed = o->seed;
   create.shrink_min = o->shrink_min;
   create.model = (int32_t)o->model;
   create.mk_zeta = o->zeta;
   if (o->resume)
-    status = jam_read_checkpoint(o->resume, stop, NULL, sys);
+    status = jam_read_checkpoint(o->resume, stop_if_asked, NULL, sys);
   else if (is_host_format(o, o->input)) {
     if (o->given.host->read(o->input, &create, o->given.host->user, sys)) return refused_start(o, JAM_E_IO);
   } else if (o->input)
-    status = jam_read_as(o->input, layout_of(o), &create, stop, NULL, sys);
+    status = read_input(o, &create, sys);
   else {
     create.n = o->n;
     if (make_diameters(o, &diameters, &create.n)) {
       free(diameters);
       return EXIT_FAILED;
     }
+    if (o->given.sizes || o->given.diameters_file) *mean = mean_of(diameters, create.n);
     create.dim = (int32_t)o->dim;
     create.packing_fraction = start_fraction(o);
     from.diameters = diameters;
     from.diameters_len = diameters ? (size_t)create.n : 0;
-    from.progress = stop;
+    from.progress = stop_if_asked;
     if (o->given.cell_count) {
       fill_cell(o, cell);
       from.cell = cell;
@@ -151,14 +160,15 @@ int start(const options *o, jam_progress_fn stop, jam_system **sys) {
     complain("interrupted before the packing was made");
     return EXIT_FAILED;
   }
-  return o->resume ? check_resumed(o, *sys) : tile(o, sys);
+  if (o->input || o->resume) *mean = info_of(*sys).diameter_mean;
+  return o->resume ? check_resumed(o, *sys, mean) : tile(o, sys);
 }
 
 int read_as_it_is(const options *o, jam_system **sys) {
   const jam_create_options create = create_options(o, JAM_OVERLAP_ALLOW);
   jam_status status = JAM_OK;
   if (!is_host_format(o, o->input))
-    status = jam_read_as(o->input, layout_of(o), &create, stop_if_asked, NULL, sys);
+    status = read_input(o, &create, sys);
   else if (o->given.host->read(o->input, &create, o->given.host->user, sys))
     status = JAM_E_IO;
   if (status < 0) return refused_start(o, status);

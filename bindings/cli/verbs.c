@@ -2,6 +2,7 @@
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "jam-pack.h"
 #include "system.h"
@@ -26,6 +27,10 @@ void watch_signals(jam_system *sys) { running = sys; }
 int32_t stop_if_asked(const jam_progress *progress, void *user) {
   (void)progress, (void)user;
   return interrupted;
+}
+
+int32_t stop_late(const jam_progress *progress, void *o) {
+  return stop_if_asked(progress, NULL) || seconds_now() > ((const options *)o)->given.deadline;
 }
 
 /* What the verb of a command line does; the exit code. */
@@ -67,25 +72,32 @@ int jam_pack_refuse(int argc, char **argv, int code, const char *why) {
   return asks_for_json(argc, argv) && write_failure(NULL, code) ? EXIT_OUTPUT : code;
 }
 
-int jam_pack(int argc, char **argv, const jam_pack_host *host) {
-  options o;
+static int run_words(int argc, char **argv, const jam_pack_host *host, options *o) {
   int code;
   program = host ? host->name : "jam-pack";
   keep_standard_descriptors();
   forget_messages();
   forget_state();
-  code = parse_options(argc, argv, host, &o) - 1;
+  code = parse_options(argc, argv, host, o) - 1;
+  o->given.deadline = seconds_now() + o->wall_time;
   if (code >= 0) return code && asks_for_json(argc, argv) && write_failure(NULL, code) ? EXIT_OUTPUT : code;
-  if (each_output(&o, check_writable, NULL)) {
+  if (each_output(o, check_writable, NULL)) {
     code = EXIT_OUTPUT;
-  } else if (refused_by_host(&o)) {
+  } else if (refused_by_host(o)) {
     code = EXIT_USAGE;
   } else {
     interrupted = 0;
     take_signals(on_signal); /* they stop the work; afterwards those who had them get them back */
-    code = run_verb(&o);
+    code = run_verb(o);
     give_signals_back();
   }
-  if (!code || has_written_json() || !(o.json || (o.report && !strcmp(o.report, "-")))) return code;
-  return write_failure(o.input ? o.input : o.resume, code) ? EXIT_OUTPUT : code;
+  if (!code || has_written_json() || !(o->json || (o->report && !strcmp(o->report, "-")))) return code;
+  return write_failure(o->input ? o->input : o->resume, code) ? EXIT_OUTPUT : code;
+}
+
+int jam_pack(int argc, char **argv, const jam_pack_host *host) {
+  options o;
+  const int code = run_words(argc, argv, host, &o);
+  free(o.given.curve);
+  return code;
 }

@@ -4,12 +4,6 @@
 #include <string.h>
 #include "jam-pack.h"
 
-/* Stops a call on Ctrl-C, and where --wall-time is over. */
-static int32_t stop_late(const jam_progress *progress, void *user) {
-  (void)progress;
-  return stop_if_asked(progress, NULL) || seconds_now() > *(const double *)user;
-}
-
 /* Of a crunch that ended before its contacts were known there is no network to write. */
 static int knows_contacts(const options *o, const outcome *result) {
   if (!result->has_crunch) return 0;
@@ -25,6 +19,17 @@ static int write_contacts(const jam_system *sys, const char *path) {
   ending_of(path, ending);
   if (!strcmp(path, "-")) path = "/dev/stdout";
   return has_failed(jam_write_contacts(sys, path, *ending ? JAM_CONTACTS_AUTO : JAM_CONTACTS_CSV));
+}
+
+/* A packing that is not jammed has nothing to prove. */
+static int write_proof(jam_system *sys, const char *path, int32_t kind) {
+  jam_rigidity_report tested = {.struct_size = sizeof tested};
+  const jam_status status = jam_rigidity(sys, kind, &tested);
+  if (status == JAM_OK) return has_failed(jam_write_proof(sys, path, kind, NULL, 0));
+  if (has_failed(status)) return 1;
+  complain("%s is not written: %s", path, jam_last_error());
+  note_failure(EXIT_EARLY);
+  return 1;
 }
 
 /* PREFIX.vtp, and PREFIX-forces.vtp where there is a network. */
@@ -55,18 +60,16 @@ static int finish_by_host(const jam_system *sys, const options *o) {
   return has_failed(JAM_E_IO);
 }
 
-int write_files(jam_system *sys, const options *o, int known, double deadline, int *cut_short) {
+int write_files(jam_system *sys, const options *o, int known, int *cut_short) {
   int bad = 0, network = 0;
   if (o->output && !is_host_format(o, o->output))
     bad |= missing(o->output, has_failed(jam_write_scaled(sys, o->output, JAM_FORMAT_AUTO, o->scale, o->density)));
   if (o->contacts && known) bad |= missing(o->contacts, write_contacts(sys, o->contacts));
-  if (o->proof && known)
-    bad |= missing(o->proof, has_failed(jam_write_proof(sys, o->proof, JAM_RIGIDITY_COLLECTIVE, NULL, 0)));
-  if (o->strict_proof && known)
-    bad |= missing(o->strict_proof, has_failed(jam_write_proof(sys, o->strict_proof, JAM_RIGIDITY_STRICT, NULL, 0)));
+  if (o->proof && known) bad |= missing(o->proof, write_proof(sys, o->proof, JAM_RIGIDITY_COLLECTIVE));
+  if (o->strict_proof && known) bad |= missing(o->strict_proof, write_proof(sys, o->strict_proof, JAM_RIGIDITY_STRICT));
   if (o->page) bad |= missing(o->page, has_failed(jam_write_page(sys, o->page, "", 0, "", NULL, 0)));
   cancel_on_signal(sys); /* a large spectrum takes long */
-  jam_set_progress(sys, stop_late, &deadline);
+  jam_set_progress(sys, stop_late, (void *)o);
   if (known) network = write_network(sys, o);
   if (network >= 0) network |= write_pore_space(sys, o);
   jam_set_progress(sys, NULL, NULL);
@@ -76,7 +79,7 @@ int write_files(jam_system *sys, const options *o, int known, double deadline, i
   return bad | (network < 0) | finish_by_host(sys, o);
 }
 
-int write_all(jam_system *sys, const options *o, double deadline, outcome *result) {
+int write_all(jam_system *sys, const options *o, outcome *result) {
   int bad;
   result->info = info_of(sys);
   result->notes = jam_notes(sys);
@@ -84,12 +87,12 @@ int write_all(jam_system *sys, const options *o, double deadline, outcome *resul
   if (!result->has_crunch || jam_stress(sys, result->stress, sizeof result->stress / sizeof *result->stress,
                                         &result->stress_numbers) != JAM_OK)
     result->stress_numbers = 0;
-  bad = write_files(sys, o, knows_contacts(o, result), deadline, &result->cut_short);
+  bad = write_files(sys, o, knows_contacts(o, result), &result->cut_short);
   if (bad)
     result->code = failure_code();
   else if (result->cut_short && result->code == EXIT_DONE)
     result->code = EXIT_EARLY;
   if (o->report && write_report(o, result, o->report)) result->code = EXIT_OUTPUT;
-  if (!o->quiet && !(o->report && !strcmp(o->report, "-"))) print_summary(o, result);
+  if (!o->quiet && !o->given.stdout_taken) print_summary(o, result);
   return end_stdout(result->code);
 }

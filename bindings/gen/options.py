@@ -68,20 +68,20 @@ TABLE = {
         Option("box", "positive", "L", "side of the box, for a random start or a file that gives no box (1)", 1.0),
         Option("cell", "cell", "LX,LY,..",
                "sides of the periodic brick of a random start, which keep their axes, or of a file that names no cell; or all components of the cell "
-               "vectors, one vector after the other", without=("resume", "box")),
-        Option("origin", "text", "X,Y,..", "where the corner of the cell is in a file that does not say it (0)", needs=("input",)),
+               "vectors, one vector after the other", without=("box",)),
+        Option("origin", "text", "X,Y,..", "where the corner of the cell is in a file that does not say it (0)", needs=("input", "resume")),
         Option("columns", "text", "A,B,..",
                "what the columns of a table contain, in order: x, y, z (or x1, x2, ..) and radius or diameter; columns of other names are not read",
-               needs=("input",)),
+               needs=("input", "resume")),
         Option("tile", "copies", "NX,NY,..", "NX x NY x .. copies of the packing of the file, side by side along the cell vectors",
-               without=("resume",), needs=("input",)),
+               needs=("input", "resume")),
         Option("walls", "choice", "AXES",
                "flat walls at both ends of these axes, of a random start or of a file that names no walls (none)", "none",
-               words=("none", "x", "y", "xy", "z", "xz", "yz", "xyz"), without=("resume",)),
+               words=("none", "x", "y", "xy", "z", "xz", "yz", "xyz")),
         Option("container", "choice", "SHAPE",
                "container of a random start or of a file that names none: the brick of the cell (brick), or a shape in it that touches its "
                "faces. --walls z closes the ends of a cylinder", "brick",
-               words=tuple(word.lower() for word in re.findall(r"^  JAM_CONTAINER_(\w+)", HEADER.read_text(), re.M)), without=("resume",)),
+               words=tuple(word.lower() for word in re.findall(r"^  JAM_CONTAINER_(\w+)", HEADER.read_text(), re.M))),
         Option("shrink", "switch", "",
                "multiply all diameters of the file by the factor that brings the pair of largest overlap to contact; the summary gives the factor",
                needs=("input", "resume")),
@@ -107,7 +107,7 @@ TABLE = {
         Option("checkpoint-every", "positive", "SECONDS", "time between checkpoints (60); during dynamics at least ten times the time of writing one", 60.0, needs=("checkpoint",)),
         Option("resume", "input", "FILE",
                "continue from a checkpoint. Dynamics continue the interrupted stage, to the same bits as without interruption, "
-               "then the stages of higher pressure. A crunch starts from the packing of its last step"),
+               "then the stages of higher pressure. A crunch starts from the packing of its last step. Options of the killed job are given again; those that the checkpoint contains must be the same"),
     ),
     "Crunch": (
         Option("method", "choice", "",
@@ -169,7 +169,7 @@ TABLE = {
                without=("no-crunch",)),
         Option("proof", "output", "FILE", "the exact numbers of the proof, for the checker jamproof.py", after_crunch=True, gzip=True),
         Option("strict-proof", "output", "FILE",
-               "the exact numbers of a proof of strict jamming, for packings that --strain free makes", after_crunch=True,
+               "the exact numbers of a proof of strict jamming, for packings that --strain free makes; none is written of others", after_crunch=True,
                gzip=True),
         Option("strict", "switch", "", "check: the exit status is that of strict jamming, for which the cell deforms too"),
         Option("report", "output", "FILE|-", "numbers, protocol and certificate as JSON; - is standard output", stdout=True),
@@ -226,7 +226,7 @@ NOTES = (
     "Exit status 0: done, and jammed unless --no-crunch. 1: stopped early, a stage stalled, or not jammed; the valid state reached is written. "
     "2: wrong command line. 3: request or input refused, or the computation failed. 4: an output cannot be written.",
     "With --input the verdict is that of the end state, after the crunch. 'check FILE' tests the packing of a file as it "
-    "is and moves nothing. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed (with --strict: strictly). 1: not. "
+    "is and moves nothing. One paragraph says whether it is jammed, strictly jammed, not jammed or undecided, and why. Exit status of check 0: jammed (with --strict or --strict-proof: strictly). 1: not. "
     "3: undecided. 2: wrong command line, or the file is refused.",
 )
 # Exit status of the verbs: those that compute, check, those that write what a file holds.

@@ -137,19 +137,18 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
   const double smallest = *std::min_element(p.diameter.begin(), p.diameter.end());
   const double reach = resolution.reach(smallest) / smallest;
   r.tolerance = o.tolerance;
-  r.second_contacts = -1;
+  r.second_contacts = -1, r.second_jump = 1.0;
   bool clear = true, wide = false;
   int64_t second_excess = 0;
   if (o.tolerance > 0.0) {
     out.network = network_of(p, g, o.tolerance);
   } else {
     bool chosen = false;
-    double second = 1.0;
     for (const Jump &jump : find_jumps(p, g, r.resolution, window)) {
       ContactNetwork net = network_of(p, g, std::sqrt(jump.below * jump.above));
       if (!may_be_network(net, p, jump) || reaches_open_pairs(net, jump, reach)) continue;
       if (chosen) {
-        second = jump.ratio;
+        r.second_jump = jump.ratio;
         r.second_contacts = static_cast<int64_t>(net.size());
         second_excess = excess_contacts(net, p);
         r.second_tolerance = std::sqrt(jump.below * jump.above);
@@ -160,9 +159,8 @@ GeometryResult contacts_from_geometry(const Packing &p, const jam_geometry_optio
       r.tolerance = std::sqrt(jump.below * jump.above);
       r.jump = jump.ratio;
     }
-    r.second_jump = second;
     wide = chosen && r.jump > JumpTuning::wide;
-    clear = wide && r.jump > second * second;
+    clear = wide && r.jump > r.second_jump * r.second_jump;
   }
   r.gap_below = 0.0;
   r.gap_above = window;

@@ -11,23 +11,6 @@
 namespace jam::inside {
 namespace {
 
-// The part of each node: nodes with a contact between them are in one, except for nodes that are `left` out.
-std::vector<int32_t> parts_of(const RigidityMatrix &g, const std::vector<char> &left) {
-  std::vector<int32_t> part(static_cast<size_t>(g.nodes));
-  std::iota(part.begin(), part.end(), 0);
-  const auto root = [&](int32_t i) {
-    while (part[i] != i) i = part[i] = part[part[i]];
-    return i;
-  };
-  for (size_t k = 0; k < g.contacts(); ++k)
-    if (g.b[k] >= 0 && !left[g.a[k]] && !left[g.b[k]]) {
-      const int32_t a = root(g.a[k]), b = root(g.b[k]);
-      part[std::max(a, b)] = std::min(a, b);
-    }
-  for (int32_t i = 0; i < g.nodes; ++i) part[i] = root(i);
-  return part;
-}
-
 // Nodes that no rotation moves.
 std::vector<char> middle_of(const RigidityMatrix &g) {
   const size_t d = static_cast<size_t>(g.dim);
@@ -233,7 +216,7 @@ void complete_flex(const RigidityMatrix &g, const RigidityMatrix &sub, const Con
 }
 
 PartTranslations::PartTranslations(const RigidityMatrix &g)
-    : dim_(static_cast<size_t>(g.dim)), part_(parts_of(g, std::vector<char>(g.nodes, 0))), open_axes_(g.open_axes) {
+    : dim_(static_cast<size_t>(g.dim)), part_(parts_of(g)), open_axes_(g.open_axes) {
   if (g.curved != 0) return;
   for (size_t c = 0; c < dim_; ++c) {
     stopped_.push_back(stopped_along(g, part_, c));
@@ -275,7 +258,7 @@ Slides find_slides(const RigidityMatrix &g) {
   const size_t d = static_cast<size_t>(g.dim);
   if (g.nodes == 0) return {};
   std::vector<std::vector<double>> found, translations;
-  const std::vector<int32_t> part = parts_of(g, std::vector<char>(static_cast<size_t>(g.nodes), 0));
+  const std::vector<int32_t> part = parts_of(g);
   for (size_t c = 0; c < d; ++c) {
     if (g.curved >> c & 1) continue;
     const std::vector<char> stopped = stopped_along(g, part, c);

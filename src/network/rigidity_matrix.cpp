@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
@@ -156,6 +157,22 @@ void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vec
   for (int32_t i = 0; i < sub.nodes; ++i)
     for (int c = 0; c < sub.dim; ++c)
       v[static_cast<size_t>(sub.sphere[i]) * sub.dim + c] += factor * x[i * sub.dim + c];
+}
+
+std::vector<int32_t> parts_of(const RigidityMatrix &g, const std::vector<char> &left) {
+  std::vector<int32_t> part(static_cast<size_t>(g.nodes));
+  std::iota(part.begin(), part.end(), 0);
+  const auto root = [&](int32_t i) {
+    while (part[i] != i) i = part[i] = part[part[i]];
+    return i;
+  };
+  for (size_t k = 0; k < g.contacts(); ++k)
+    if (g.b[k] >= 0 && (left.empty() || (!left[g.a[k]] && !left[g.b[k]]))) {
+      const int32_t a = root(g.a[k]), b = root(g.b[k]);
+      part[std::max(a, b)] = std::min(a, b);
+    }
+  for (int32_t i = 0; i < g.nodes; ++i) part[i] = root(i);
+  return part;
 }
 
 std::vector<double> direction_errors(const RigidityMatrix &g) {

@@ -49,6 +49,10 @@ RigidityMatrix subset(const RigidityMatrix &g, const std::vector<char> &on);
 // Adds factor times the displacements x of the nodes of such a subset to v, those of the nodes of g.
 void scatter(const RigidityMatrix &sub, const double *x, double factor, std::vector<double> &v);
 
+// The part of each node, named by its smallest node: nodes with a contact between them are in one, except for nodes
+// (flags) that are `left` out.
+std::vector<int32_t> parts_of(const RigidityMatrix &g, const std::vector<char> &left = {});
+
 // Largest error of each unit vector: by rounding, and by what contacts of its two spheres are open by, as they turn
 // while they close.
 std::vector<double> direction_errors(const RigidityMatrix &g);

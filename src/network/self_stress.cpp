@@ -13,36 +13,20 @@
 namespace jam::inside {
 namespace {
 
-// Clusters of touching spheres by union-find; the representative is the smallest node.
-std::vector<int32_t> cluster_roots(const RigidityMatrix &g) {
-  std::vector<int32_t> root(g.nodes);
-  for (int32_t i = 0; i < g.nodes; ++i) root[i] = i;
-  auto find = [&](int32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
-  for (size_t k = 0; k < g.contacts(); ++k) {
-    if (g.b[k] < 0) continue;
-    const int32_t x = find(g.a[k]), y = find(g.b[k]);
-    root[std::max(x, y)] = std::min(x, y);
-  }
-  for (int32_t i = 0; i < g.nodes; ++i) root[i] = find(i);
-  return root;
-}
-
 ContactWeights unit_weights(const RigidityMatrix &g) {
   ContactWeights w;
   w.stiffness.assign(g.contacts(), 1.0);
   return w;
 }
 
-// Gram-Schmidt, twice: x := component of x orthogonal to the vectors of q; returns its length over that of x.
-double orthogonalise(const std::vector<std::vector<double>> &q, std::vector<double> &x) {
+// Gram-Schmidt, twice: x := component of x orthogonal to the vectors of q (count, size of x); returns its length over
+// that of x.
+double orthogonalise(const std::vector<double> &q, std::vector<double> &x) {
   const double before = norm(x);
   for (int twice = 0; twice < 2; ++twice)
-    for (const auto &v : q) {
-      const double along = dot(v, x);
-      for (size_t k = 0; k < x.size(); ++k) x[k] -= along * v[k];
+    for (size_t v = 0; v < q.size(); v += x.size()) {
+      const double along = dot(x, &q[v]);
+      for (size_t k = 0; k < x.size(); ++k) x[k] -= along * q[v + k];
     }
   return before > 0.0 ? norm(x) / before : 0.0;
 }
@@ -89,10 +73,11 @@ int64_t NullSpace::zero_modes() const {
   const size_t n = g_.unknowns();
   const double floor = undecided_eigenvalue * solver_.hessian().norm_bound();
   const ContactWeights w = unit_weights(g_);
-  std::vector<std::vector<double>> kernel;
+  std::vector<double> kernel;
+  size_t found = 0;
   Rng rng(2, Stream::analysis_start);
-  for (bool more = true; more && kernel.size() < most_zero_modes && kernel.size() < n;) {
-    const int block = static_cast<int>(std::min<size_t>(n - kernel.size(), std::max<size_t>(2, kernel.size())));
+  for (bool more = true; more && found < most_zero_modes && found < n;) {
+    const int block = static_cast<int>(std::min<size_t>(n - found, std::max<size_t>(2, found)));
     std::vector<double> x(n * block);
     for (double &v : x) v = rng.normal();
     for (int pass = 0; pass < 4; ++pass) {
@@ -113,10 +98,10 @@ int64_t NullSpace::zero_modes() const {
         more = false;
         continue;
       }
-      kernel.push_back(v);
+      kernel.insert(kernel.end(), v.begin(), v.end()), ++found;
     }
   }
-  return zeros_ = static_cast<int64_t>(kernel.size()) + solver_.springs();
+  return zeros_ = static_cast<int64_t>(found) + solver_.springs();
 }
 
 int64_t NullSpace::dimension() const {
@@ -136,7 +121,6 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
     for (double &v : w) v = rng.normal();
     return w;
   };
-  std::vector<std::vector<double>> q;
   out.force.assign(m, 1.0);
   space.project(out.force);
   // Fast way out, true for almost every packing: as many contacts as one state of self-stress has, and a random vector
@@ -148,8 +132,7 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
     space.project(second);
     const double scale = norm(line);
     for (double &v : line) v /= scale;
-    q.push_back(line);
-    orthogonalise(q, second);
+    orthogonalise(line, second);
     if (norm(second) < least_rest * length) {
       out.dimension = 1;
       out.zero_modes = g.symmetries();
@@ -181,26 +164,23 @@ StressStates find_stress(const RigidityMatrix &g, const NullSpace &space, bool w
   out.min_force = *std::min_element(out.force.begin(), out.force.end());
   if (out.dimension == 1) out.positive = out.min_force > 0.0;
   if (with_basis) {
-    if (static_cast<double>(out.dimension) * static_cast<double>(m) * 8.0 > 1e9)
-      fail(JAM_E_MEMORY, "a basis of %lld states of %zu contacts needs more than 1 GB",
-           static_cast<long long>(out.dimension), m);
-    q.clear();
-    for (uint64_t k = 0;
-         static_cast<int64_t>(q.size()) < out.dimension && k < 4 * static_cast<uint64_t>(out.dimension) + 8; ++k) {
+    const auto states = static_cast<uint64_t>(out.dimension);
+    const std::string what = "a basis of " + std::to_string(states) + " states of self-stress would";
+    CallScope::need_memory(8.0 * static_cast<double>(states) * static_cast<double>(m), what.c_str());
+    out.basis.reserve(states * m);
+    for (uint64_t k = 0; out.basis.size() < states * m && k < 4 * states + 8; ++k) {
       std::vector<double> v = k == 0 && out.positive ? out.force : fresh(10 + k);
       space.project(v);
-      if (orthogonalise(q, v) < least_rest) continue;
+      if (orthogonalise(out.basis, v) < least_rest) continue;
       const double length = norm(v);
-      for (double &x : v) x /= length;
-      q.push_back(v);
+      for (const double x : v) out.basis.push_back(x / length);
     }
-    for (const auto &v : q) out.basis.insert(out.basis.end(), v.begin(), v.end());
   }
   return out;
 }
 
 int32_t count_clusters(const RigidityMatrix &g) {
-  const std::vector<int32_t> root = cluster_roots(g);
+  const std::vector<int32_t> root = parts_of(g);
   int32_t count = 0;
   for (int32_t i = 0; i < g.nodes; ++i) count += root[i] == i;
   return count;
@@ -208,7 +188,7 @@ int32_t count_clusters(const RigidityMatrix &g) {
 
 GroundedSolver::GroundedSolver(const RigidityMatrix &g, const ContactWeights &w)
     : g_(g), h_(make_hessian(g, w)), tied_(h_), factor_(tied_) {
-  const std::vector<int32_t> root = cluster_roots(g);
+  const std::vector<int32_t> root = parts_of(g);
   if (const double norm = h_.norm_bound(); norm > 0.0) scale_ = norm;
   const size_t d = static_cast<size_t>(g.dim);
   std::vector<uint32_t> held(g.nodes, 0);  // axes along which walls push a cluster
@@ -216,14 +196,12 @@ GroundedSolver::GroundedSolver(const RigidityMatrix &g, const ContactWeights &w)
     for (size_t c = 0; c < d && g.b[k] < 0; ++c)
       if (g.normal[k * d + c] != 0.0) held[root[g.a[k]]] |= 1u << c;
   for (int32_t i = 0; i < g.nodes; ++i)
-    if (root[i] == i) {
-      ++clusters_;
+    if (root[i] == i)
       for (size_t c = 0; c < d; ++c) {
         if (held[i] >> c & 1) continue;
         ++springs_;
         tied_.diag[static_cast<size_t>(i) * d * d + c * d + c] += scale_;
       }
-    }
   factor_.factorise_from(1e-13 * scale_);
 }
 

@@ -24,7 +24,6 @@ class GroundedSolver {
   double shift() const { return factor_.shift(); }
   double scale() const { return scale_; }
   const BlockMatrix &hessian() const { return h_; }
-  int32_t clusters() const { return clusters_; }
   int64_t springs() const { return springs_; }  // translations of clusters that are zero modes
 
  private:
@@ -32,7 +31,6 @@ class GroundedSolver {
   BlockMatrix h_, tied_;
   ShiftedFactor factor_;
   double scale_ = 1.0;  // a bound of the norm of H, where it is not 0: spheres that touch only their own images
-  int32_t clusters_ = 0;
   int64_t springs_ = 0;
 };
 

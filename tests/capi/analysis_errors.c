@@ -46,6 +46,25 @@ CASE(hyperstatic_networks_have_several_self_stresses) {
   SAYS(jam_floppy_modes(s, &contact, 1, JAM_FLOPPY_COLUMNS, NULL, 0, u, 32, &m), JAM_E_STATE, "8");
 }
 
+/* Of a long strip of a square lattice: one state a row and a column, which take more memory than its factor. */
+CASE(a_basis_is_within_the_memory_limit) {
+  enum { WIDE = 4, LONG = 64, SPHERES = WIDE * LONG, CONTACTS = 2 * SPHERES, STATES = WIDE + LONG };
+  static double x[2 * SPHERES], f[CONTACTS], basis[STATES * CONTACTS];
+  const double cell[4] = {WIDE, 0.0, 0.0, LONG}, diameter = 1.0;
+  size_t m;
+  for (int k = 0; k < SPHERES; ++k) x[2 * k] = k % WIDE, x[2 * k + 1] = k / WIDE;
+  DEFAULTS(create, c);
+  c.dim = 2, c.n = SPHERES;
+  OWNED jam_system *s = created_in_cell(&c, cell, 4, x, 2 * SPHERES, &diameter, 1);
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_NOT_JAMMED);
+  assert_int_equal(jam_set_memory_limit(s, 0.99 * sizeof basis), JAM_OK);
+  assert_int_equal(jam_stress_states(s, f, CONTACTS, NULL, 0, NULL, &m), JAM_AMBIGUOUS);
+  assert_int_equal(m, STATES);
+  SAYS(jam_stress_states(s, f, CONTACTS, basis, STATES * CONTACTS, NULL, &m), JAM_E_MEMORY, "68 states");
+  assert_int_equal(jam_set_memory_limit(s, 1.01 * sizeof basis), JAM_OK);
+  assert_int_equal(jam_stress_states(s, f, CONTACTS, basis, STATES * CONTACTS, NULL, &m), JAM_AMBIGUOUS);
+}
+
 /* The random signs of two or three spheres are often those of a translation, which is left out. */
 CASE(few_spheres_have_a_density_of_states) {
   for (int n = 2; n < 4; ++n) {

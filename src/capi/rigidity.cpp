@@ -221,7 +221,7 @@ jam_status jam_check_packing(jam_system *sys, const jam_check_options *o, jam_ch
 }
 
 const char *jam_check_text(const jam_check_report *report) {
-  static thread_local char text[2048];
+  static thread_local char text[sentence_max];
   text[0] = '\0';
   guard([&]() -> jam_status {
     if (!report) return JAM_OK;

@@ -8,7 +8,7 @@
 
 namespace jam::inside {
 namespace {
-thread_local char last_error[2048] = "";  // a paragraph of jam_check_text fits
+thread_local char last_error[sentence_max] = "";
 }
 OwnEnvironmentOfCall::OwnEnvironmentOfCall() noexcept {}
 OwnEnvironmentOfCall::~OwnEnvironmentOfCall() {}

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/create.hpp"
 #include "core/with_dimension.hpp"
 
 namespace jam::inside {
@@ -28,7 +29,12 @@ void check_n(int64_t n) {
   if (n < 1 || n > limits::n_max) fail(JAM_E_ARGUMENT, "n is %lld, it must be in 1..2^31-1", static_cast<long long>(n));
 }
 
-void check_box(double box) { check_range("box", box, limits::box_min, limits::box_max); }
+// The side of a cell is a root of a product, and carries its rounding.
+void check_box(double box) {
+  constexpr double rounding = 1.0 + overlap_tolerance;
+  if (!(box * rounding >= limits::box_min && box <= limits::box_max * rounding))
+    fail(JAM_E_ARGUMENT, "box is %g, supported are %g..%g", box, limits::box_min, limits::box_max);
+}
 
 void check_non_additivity(double delta) {
   if (!(delta > -1.0 && delta <= limits::non_additivity_max))

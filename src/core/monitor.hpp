@@ -88,6 +88,9 @@ class TimeLeft {
   double least_gap_ = 0.0, largest_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Bytes of a sentence that says why, for jam_last_error and the log: a paragraph of jam_check_text fits.
+constexpr size_t sentence_max = 2048;
+
 inline double now_seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -174,7 +177,7 @@ class Monitor {
   void expect_factorisations(int64_t so_far) { last_report_.factorisations = so_far; }
   __attribute__((format(printf, 3, 4))) void log(int level, const char *format, ...) const {
     if (!log_fn || level > log_level) return;
-    char line[400];
+    char line[sentence_max];
     va_list args;
     va_start(args, format);
     std::vsnprintf(line, sizeof line, format, args);

@@ -70,6 +70,20 @@ CASE(slow_velocities) {
   assert_memory_equal(ends[0].data(), ends[1].data(), ends[0].size() * sizeof(double));
 }
 
+// A cell that deforms at fixed volume has the size of before but for rounding, also at the limits of a box.
+CASE(free_cells_of_the_largest_and_smallest_box) {
+  for (const double box : {1e30, 1e-30})
+    for (int seed = 1; seed < 4; ++seed) {
+      DEFAULTS(create, c);
+      c.dim = 2, c.n = 12, c.box = box, c.seed = seed, c.packing_fraction = 0.3;
+      OWNED jam_system *sys = created(&c);
+      DEFAULTS(crunch, o);
+      o.strain = JAM_STRAIN_FREE;
+      if (jam_crunch(sys, &o, nullptr) < 0) fail_msg("box %g: %s", box, jam_last_error());
+      OWNED jam_system *again = from_checkpoint(sys);
+    }
+}
+
 // Random numbers, lists and decisions of Monte Carlo do not depend on the unit of energy.
 CASE(energies_in_any_unit) {
   std::vector<double> ends[3];

@@ -41,6 +41,17 @@ CASE(silence_is_short) {
   tells(10, [](Monitor &) { CallScope::look(); });
 }
 
+// A log callback gets the whole sentence of an error.
+CASE(long_lines_are_logged_whole) {
+  Monitor monitor;
+  std::string heard;
+  const std::string line(sentence_max - 1, 'x');
+  monitor.log_level = JAM_LOG_WARNING, monitor.log_user = &heard;
+  monitor.log_fn = [](int32_t, const char *text, void *user) { *static_cast<std::string *>(user) = text; };
+  monitor.log(JAM_LOG_WARNING, "%s", line.c_str());
+  assert_true(heard == line);
+}
+
 // Work without polling: it ends before the call, and nothing is reported without a callback.
 CASE(work_on_another_thread_tells) {
   const auto nap = [] { std::this_thread::sleep_for(std::chrono::milliseconds(1200)); };

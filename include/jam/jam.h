@@ -808,8 +808,7 @@ JAM_API jam_status jam_isoconf_kept(const jam_system *sys, int32_t instant, doub
                                     size_t *needed);
 
 /* ------------------------------------------------------------------ crunch to the jamming point */
-/* jam_crunch is the call for users, and its report the certificate. jam_estimate_crunch gives memory and time before
- * it; history and steps are for those who study the algorithm. */
+/* jam_crunch is the call for users, its report the certificate; history and steps are for studies of the method. */
 
 /* How the LPs are solved. */
 typedef enum jam_lp_solver {
@@ -849,14 +848,14 @@ typedef struct jam_crunch_options {
   int32_t lp_solver;       /* @enum jam_lp_solver, default IPM */
   int32_t method;          /* @enum jam_crunch_method, default BARRIER_PATH */
   int32_t polish;          /* @bool at the end Newton steps close contacts and balance forces to rounding; default 1 */
-  int32_t max_lps;         /* >= 1, default 1000 */
+  int32_t max_lps;         /* of all LPs, narrow ones and those after a decompression too; >= 1, default 1000 */
   int32_t threads;         /* 1 .. 64, default 1; 2 to 64 give the same bits, 1 may give others */
   double gain_tolerance;   /* on sqrt(Gamma) - 1, > 0, default 1e-12 */
   double step_tolerance;   /* on max |s_i| of non-rattlers, > 0, default 1e-9 */
   double lp_tolerance;     /* relative complementarity, residual of an LP, default 1e-15; above 1e-9 it acts as 1e-9 */
   double neighbour_radius; /* LPs contain pairs with gap < this - largest diameter; 0, the default: adapts */
-  double step_bound;       /* bound on each |s_i| component, 1e-15 .. 1000; 0, the default: adapts */
-  double wall_time;        /* limit of the call */
+  double step_bound;       /* bound on each |s_i| component, >= gain_tolerance, 1e-15 .. 1000; 0, the default: adapts */
+  double wall_time;        /* limit of the call, its proof included */
   int32_t steps;           /* @bool the callback is called at every step and may call jam_crunch_step; default 0 */
   int32_t full_lps;        /* @bool every LP is solved to lp_tolerance, so that its network balances; default 0 */
   int32_t strain;          /* @enum jam_free_strain, default NONE */
@@ -865,9 +864,9 @@ typedef struct jam_crunch_options {
   int32_t prove;           /* @bool a packing that ends jammed is proved collectively jammed by jam_prove; default 0 */
   int32_t reserved;
 } jam_crunch_options;
-/* Result and certificate of jam_crunch. Counts are -1 if contacts are unknown, for example after an early stop; calls
- * that need the network then return JAM_E_STATE. Members from packing_fraction_start to contacts_kept compare the
- * packing before and after the crunch; displacements include rattlers and a strain of the cell. After
+/* Result and certificate of jam_crunch. If contacts are unknown, as after an early stop, counts are -1 (stable and
+ * excess_contacts 0), forces and gaps NaN, and calls that need them return JAM_E_STATE. packing_fraction_start to
+ * contacts_kept compare before and after; displacements include rattlers and a strain of the cell. After
  * JAM_STOP_DUALITY_GAP undecided_contacts counts pairs with 1e-4 < f / (2 h) < 1e4, f: force / mean force. */
 typedef struct jam_crunch_report {
   uint32_t struct_size;
@@ -919,10 +918,11 @@ JAM_API jam_status jam_crunch_options_init(jam_crunch_options *o, size_t size);
 /* Brings the packing to its jamming point and keeps the contact network (o->method; Artiaco et al., Phys. Rev. E 106,
  * 055310 (2022)). No step creates an overlap. If the packing is not shown to be jammed, the crunch decreases the
  * diameters by 1e-4 to 0.1, displaces the spheres at random by less than half of that, and compresses again. A stopped
- * crunch leaves a valid packing. Another call, also from a checkpoint, continues on the path at its mu; bits may
- * differ, and its report counts its own steps and times. Status: JAM_OK jammed, or at the duality gap of the options
- * (`jammed` is then 0, and another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED with the last valid state.
- * @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER (last good state kept) */
+ * crunch leaves a valid packing, a stopped proof the verdict too. Another call, also from a checkpoint, continues on
+ * the path at its mu; bits may differ, and its report counts its own steps and times. Status: JAM_OK jammed, or at the
+ * duality gap of the options (`jammed` is then 0, and another call continues); JAM_NOT_CONVERGED, JAM_NOT_JAMMED with
+ * the last valid state. An error amid the steps keeps the last good state with a report, and another call continues.
+ * @errors OVERLAP, TOO_FEW (one sphere in a fixed cell), SOLVER */
 JAM_API jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_report *report);
 
 /* Memory and time of a crunch, estimated from the graph of pairs and its elimination tree. */
@@ -936,8 +936,7 @@ typedef struct jam_estimate_report {
   double factorisations; /* median of packings equally near to jamming; one packing may differ by a factor of 2 */
   double step_seconds;   /* one factorisation and its assembly and solves, on this core; mean of first LP and path */
   double seconds;        /* factorisations * step_seconds */
-  /* Nine of ten crunches end between these. Decompressions, narrow LPs, and saddles of equal disks and crystals cannot
-   * be predicted. */
+  /* Nine of ten crunches end between these; decompressions, narrow LPs and saddles of crystals cannot be predicted. */
   double seconds_low, seconds_high;
 } jam_estimate_report;
 /* Estimates memory and time of jam_crunch with these options (NULL: defaults) without running it; jam_crunch logs the
@@ -980,10 +979,11 @@ typedef enum jam_history_column {
 JAM_API jam_status jam_crunch_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                       size_t *needed);
 /* The step that has just ended; only in the progress callback of jam_crunch with steps = 1. displacement of all
- * spheres, unit of box, without wrapping: those of all steps add up from start to end. The other arrays describe an LP:
- * its *rows = m pairs with a positive dual, rattlers included; m = 0 after other steps. vector: r_ij, dual: lambda_ij,
- * with sum_j lambda_ij r_ij = 0 on every sphere without an active step bound and sum lambda_ij sigma_ij^2 = 1, r and
- * sigma before the step. @shape displacement (n, d), pair (m, 2), vector (m, d), dual (m) @errors STATE */
+ * spheres, unit of box, a strain included, without wrapping: those of all steps add up from start to end, unless the
+ * cell was rotated (jam_notes). The other arrays describe an LP: its *rows = m pairs with a positive dual, rattlers
+ * included; m = 0 after other steps. vector: r_ij, dual: lambda_ij, with sum lambda_ij sigma_ij^2 = 1, r and sigma
+ * before the step, and sum_j lambda_ij r_ij = 0 on every sphere without an active step bound, unless the LP ended early
+ * (full_lps). @shape displacement (n, d), pair (m, 2), vector (m, d), dual (m) @errors STATE */
 JAM_API jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t displacement_len, int32_t *pair,
                                    size_t pair_len, double *vector, size_t vector_len, double *dual, size_t dual_len,
                                    size_t *rows);

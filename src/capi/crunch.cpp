@@ -15,16 +15,28 @@ jam_status with_contacts(const jam_system *sys, F &&f) noexcept {
   });
 }
 
-// A crunch is not lost where its proof ends early.
-void prove_end(const Packing &p, Results &found, Monitor &monitor) {
-  if (!found.report.jammed || p.model != JAM_MODEL_EUCLID) return;
+// The proof has what the crunch has left of the time of the call. A crunch is not lost where its proof ends early.
+void prove_end(CrunchResult &result, double wall_time, Monitor &monitor) {
+  if (!result.report.jammed || result.packing.model != JAM_MODEL_EUCLID) return;
+  const TimeLimit limit(monitor, wall_time);
+  const CancellableScope scope;
+  monitor.log(JAM_LOG_INFO, "proof of %zu contacts", result.contacts.size());
   try {
-    take_proof(p, found.contacts, found.report);
+    take_proof(result.packing, result.contacts, result.report);
   } catch (const Cancelled &) {
-    monitor.log(JAM_LOG_WARNING, "crunch: cancelled during the proof");
+    result.report.stop_reason = monitor.why_interrupted();
+    const bool cancelled = result.report.stop_reason == JAM_STOP_CANCELLED;
+    result.status = cancelled ? JAM_CANCELLED : JAM_LIMIT;
+    result.text = std::string(cancelled ? "jam_cancel or a callback stopped" : "wall_time came before the end of") +
+                  " the proof; the packing and its verdict are kept: crunch again to prove it";
   } catch (const std::exception &e) {
     monitor.log(JAM_LOG_WARNING, "crunch: no proof: %s", e.what());
   }
+  result.report.seconds = monitor.seconds();
+}
+
+[[noreturn]] void fail_crunch(const CrunchResult &result) {
+  fail(result.status, "%s", result.text.empty() ? "out of memory; the last good state is kept" : result.text.c_str());
 }
 }  // namespace
 
@@ -50,26 +62,25 @@ jam_status jam_crunch(jam_system *sys, const jam_crunch_options *o, jam_crunch_r
     sys->crunching = &history;
     if (sys->crunch_paused) history.stage = *sys->crunch_paused;
     CrunchResult result = crunch(sys->packing, full, sys->monitor, &history);
+    if (result.status < 0 && !history.left_start(result.packing)) fail_crunch(result);
     check_packing(result.packing, JAM_E_SOLVER);  // else all stays as before
+    without_proof(result.report);
+    if (full.prove) prove_end(result, full.wall_time, sys->monitor);
     Results found;
     found.contacts = std::move(result.contacts);
     found.report = result.report;
     found.report.status = result.status;
-    without_proof(found.report);
-    if (full.prove) prove_end(result.packing, found, sys->monitor);
     found.history = std::move(history).rows();
     found.kept_steps = std::move(history).kept();
     found.has_report = found.has_history = true;
-    // Also after a failure: the state reached is valid and nothing is lost.
+    // Also after a failure amid the work: the state reached is valid and nothing is lost.
     sys->commit(result.packing, std::move(found));
     if (sys->notes.text().find(result.notes.text()) == std::string::npos) sys->notes.append(result.notes);
-    if (result.status == JAM_CANCELLED || result.status == JAM_LIMIT ||
+    if (result.status < 0 || result.status == JAM_CANCELLED || result.status == JAM_LIMIT ||
         result.report.stop_reason == JAM_STOP_DUALITY_GAP)
       sys->crunch_paused = history.stage;
     give_struct(sys->report, report);
-    if (result.status < 0)
-      fail(result.status, "%s",
-           result.text.empty() ? "out of memory; the last good state is kept" : result.text.c_str());
+    if (result.status < 0) fail_crunch(result);
     if (result.status > 0 && !result.text.empty()) return {result.status, result.text};
     return stopped(result.status, result.report.stop_reason);
   });

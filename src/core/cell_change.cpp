@@ -12,17 +12,9 @@
 namespace jam::inside {
 
 void enter_cell(Packing &p, const NormalCell &normal) {
-  const size_t d = static_cast<size_t>(p.dim);
   p.cell = normal.cell;
   if (p.container) enclose(p, {p.container.kind(), p.container.flat()});
-  if (normal.rotated)
-    for (auto *of : {&p.position, &p.velocity})
-      for (size_t i = 0; i < of->size() / d; ++i) {
-        Cell::Vector x{};
-        for (size_t k = 0; k < d; ++k)
-          for (size_t c = 0; c < d; ++c) x[k] += normal.rotation[k * d + c] * (*of)[i * d + c];
-        std::copy(x.begin(), x.begin() + d, of->begin() + i * d);
-      }
+  normal.turn(p.position), normal.turn(p.velocity);
   if (!p.position.empty()) wrap_positions(p);
 }
 
@@ -55,13 +47,13 @@ void note_cell(const NormalCell &normal, bool spheres, Notes &notes) {
                             : "the cell was rotated: its vectors are lower-triangular now");
 }
 
-bool shorten_cell(Packing &p, Notes &notes) {
-  if (p.container) return false;  // the vectors lie along its walls
-  const NormalCell normal = normal_cell(p.dim, p.cell.rows().data(), 0.5 * defect_max(p.dim));
-  if (normal.same_vectors() || !keeps_shifts(p, normal)) return false;
+std::optional<NormalCell> shorten_cell(Packing &p, Notes &notes) {
+  if (p.container) return {};  // the vectors lie along its walls
+  NormalCell normal = normal_cell(p.dim, p.cell.rows().data(), 0.5 * defect_max(p.dim));
+  if (normal.same_vectors() || !keeps_shifts(p, normal)) return {};
   enter_cell(p, normal);
   note_cell(normal, true, notes);
-  return true;
+  return normal;
 }
 
 void straighten_cell(Packing &p, Notes &notes) {

@@ -161,6 +161,16 @@ bool NormalCell::same_vectors() const {
   return true;
 }
 
+void NormalCell::turn(std::vector<double> &vectors) const {
+  const auto d = static_cast<size_t>(cell.dim());
+  for (size_t i = 0; rotated && i < vectors.size(); i += d) {
+    Cell::Vector x{};
+    for (size_t k = 0; k < d; ++k)
+      for (size_t c = 0; c < d; ++c) x[k] += rotation[k * d + c] * vectors[i + c];
+    std::copy(x.begin(), x.begin() + d, vectors.begin() + i);
+  }
+}
+
 double orthogonality_defect(const Cell &cell) {
   double product = 1.0;
   for (int c = 0; c < cell.dim(); ++c) {

@@ -12,6 +12,7 @@ struct NormalCell {
   bool rotated = false;            // false: Q is exactly 1
   double most_defect = 0.0;        // rows given whose orthogonality defect is larger were not kept; 0: always reduced
   bool same_vectors() const;       // T is 1
+  void turn(std::vector<double> &vectors) const;  // (n, dim), by Q
 };
 
 // The rows as given, turned to a lower triangle by Gram-Schmidt where they are none; lower-triangular rows stay as they

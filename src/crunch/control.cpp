@@ -22,6 +22,12 @@ bool stop_if_interrupted(CrunchState &s) {
   return true;
 }
 
+bool stop_at_lp_limit(CrunchState &s) {
+  if (s.out.report.lp_solves < s.o.max_lps) return false;
+  stop(s, JAM_STOP_LP_LIMIT, JAM_LIMIT);
+  return true;
+}
+
 void forget_contacts(CrunchState &s) {
   s.out.contacts = ContactNetwork();
   s.out.contacts.coordination.assign(s.out.packing.n(), 0);

@@ -144,8 +144,14 @@ void check_options(const Packing &p, const jam_crunch_options &o) {
   check_positive(o.lp_tolerance, "lp_tolerance");
   check_positive(o.wall_time, "wall_time");
   check_range("neighbour_radius", o.neighbour_radius, 0.0, limits::radius_max);
+  if (o.neighbour_radius > 0.0 && o.neighbour_radius < widest_contact(p))
+    fail(JAM_E_ARGUMENT, "the neighbour radius %g is below the largest diameter, %.3g (both in mean diameters)",
+         o.neighbour_radius, widest_contact(p));
   // Smaller steps are lost in the rounding of positions; larger ones leave the numbers that the LP solvers take.
   if (o.step_bound != 0.0) check_range("step_bound", o.step_bound, 1e-15, limits::radius_max);
+  if (o.step_bound > 0.0 && o.step_bound < o.gain_tolerance)
+    fail(JAM_E_ARGUMENT, "step_bound is %g, below the gain_tolerance of %g: no step gains as much", o.step_bound,
+         o.gain_tolerance);
   check_flag(o.polish, "polish");
   check_flag(o.full_lps, "full_lps");
   check_flag(o.steps, "steps");

@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 
+#include "core/cell_reduction.hpp"
 #include "core/notes.hpp"
 #include "crunch/tuning.hpp"
 #include "lp/packing_lp.hpp"
@@ -51,10 +52,13 @@ class History {
   // From here on displacements count. details: fill step() too. keep: states to keep at most, the start with them;
   // large packings keep fewer.
   void begin(const Packing &start, bool details, int64_t keep = 0);
-  // A row for the move since the last call. displacement, unit of box, may be NULL when no sphere moved by half a box:
-  // then nearest images give it. seconds, factorisations: totals so far. Unknown columns are NaN.
+  // A row for the move since the last call. displacement, unit of box, without that by a strain of the cell, may be
+  // NULL when no sphere moved by half a box beside it: then nearest images give it. seconds, factorisations: totals so
+  // far. Unknown columns are NaN.
   HistoryRow &moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                     const double *displacement = nullptr);
+  // The cell has other vectors now, and the spheres turned with it: so do their displacements.
+  void turn(const Packing &now, const NormalCell &cell);
   // Mean squares of the last row over stable spheres alone: those with a contact.
   void over_stable(const std::vector<int32_t> &coordination);
   // From begin() to `now`, over the mean diameter, without the mean displacement: the largest, and the root of the mean
@@ -67,6 +71,8 @@ class History {
   bool behind(const Packing &now) const {
     return now.position != reached_.position || now.diameter.front() != reached_.diameter.front();
   }
+  // Did any of this happen since the start?
+  bool left_start(const Packing &now) const { return !rows_.empty() || behind(now); }
   // The linear network of an LP before its step is made.
   void take_network(const Packing &p, const PackingLp &lp, const LpSolution &answer);
 
@@ -80,7 +86,11 @@ class History {
  private:
   // Where there is no more room every other state goes.
   void keep(const Packing &now);
-  // Displacements by nearest images.
+  // By what the strain of the cell since the last row moves these points, or the images that are followed: those of
+  // the start.
+  std::vector<double> by_strain(const Packing &now, std::vector<double> points) const;
+  std::vector<double> by_strain(const Packing &now) const;
+  // Displacements by the images that are nearest beside a strain.
   std::vector<double> since_last_row(const Packing &now) const;
 
   bool details_ = false;
@@ -88,7 +98,7 @@ class History {
   std::vector<KeptStep> kept_;
   int64_t most_kept_ = 0, kept_every_ = 1;
   Packing reached_;
-  std::vector<double> total_, last_;  // moved since begin(); moved in the last row
+  std::vector<double> start_, total_, last_;  // where begin() was; moved since then; moved in the last row
   double seconds_ = 0.0;
   int factorisations_ = 0;
   CrunchStep step_;

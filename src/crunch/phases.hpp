@@ -16,6 +16,8 @@ Phase free_cell(CrunchState &s);
 
 // Bound of the first LP: the free spacing of a dilute start, down to a tenth of a diameter near jamming.
 double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t);
+// The largest diameter in mean diameters: no neighbour radius is smaller.
+double widest_contact(const Packing &p);
 // Pairs farther apart cannot meet in an LP of this bound.
 double lp_reach(const Packing &p, const jam_crunch_options &o, const Tuning &t, double bound);
 // The LP of the next bound at the present packing, into s.last. Returns the reach of its pairs.
@@ -90,6 +92,8 @@ bool converged(const CrunchState &s);
 void stop(CrunchState &s, jam_stop_reason reason, jam_status status);
 // Where the call was cancelled or its time is over: stops for that reason. True when it did.
 bool stop_if_interrupted(CrunchState &s);
+// Where no LP is left of those that the options allow: the same.
+bool stop_at_lp_limit(CrunchState &s);
 // Clears contacts and verdict of the report, because the spheres will move again.
 void forget_contacts(CrunchState &s);
 // LPs begin again with this bound: the packing was moved, or its cell is free now.

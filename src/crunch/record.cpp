@@ -40,7 +40,7 @@ void History::begin(const Packing &start, bool details, int64_t most) {
   details_ = details;
   rows_.clear();
   rows_.reserve(64);
-  reached_ = start;
+  reached_ = start, start_ = start.position;
   total_.assign(start.position.size(), 0.0);
   last_ = total_;
   kept_.clear(), kept_every_ = 1;
@@ -50,16 +50,42 @@ void History::begin(const Packing &start, bool details, int64_t most) {
   step_ = CrunchStep();
 }
 
-std::vector<double> History::since_last_row(const Packing &now) const {
-  std::vector<double> x(now.position);
-  for (size_t k = 0; k < x.size(); ++k) x[k] -= reached_.position[k];
-  for (size_t i = 0; i < now.n(); ++i) now.cell.nearest(&x[i * static_cast<size_t>(now.dim)]);
+std::vector<double> History::by_strain(const Packing &now, std::vector<double> x) const {
+  const size_t d = static_cast<size_t>(now.dim);
+  const bool same = now.cell.rows() == reached_.cell.rows();
+  Cell::Vector to{};
+  for (size_t k = 0; k < x.size(); k += d) {
+    reached_.cell.fraction(&x[k], to.data());
+    now.cell.combine(to.data(), to.data());
+    for (size_t c = 0; c < d; ++c) x[k + c] = same ? 0.0 : to[c] - x[k + c];
+  }
   return x;
+}
+
+std::vector<double> History::by_strain(const Packing &now) const {
+  std::vector<double> image(start_);
+  for (size_t k = 0; k < image.size(); ++k) image[k] += total_[k];
+  return by_strain(now, std::move(image));
+}
+
+std::vector<double> History::since_last_row(const Packing &now) const {
+  const std::vector<double> moved = by_strain(now, reached_.position), whole = by_strain(now);
+  std::vector<double> x(now.position);
+  for (size_t k = 0; k < x.size(); ++k) x[k] -= reached_.position[k] + moved[k];
+  for (size_t i = 0; i < now.n(); ++i) now.cell.nearest(&x[i * static_cast<size_t>(now.dim)]);
+  for (size_t k = 0; k < x.size(); ++k) x[k] += whole[k];
+  return x;
+}
+
+void History::turn(const Packing &now, const NormalCell &cell) {
+  cell.turn(start_), cell.turn(total_);
+  reached_ = now;
 }
 
 HistoryRow &History::moved(const Packing &now, jam_step_phase phase, double seconds, int factorisations,
                            const double *displacement) {
-  last_ = displacement ? std::vector<double>(displacement, displacement + last_.size()) : since_last_row(now);
+  last_ = displacement ? by_strain(now) : since_last_row(now);
+  for (size_t k = 0; displacement && k < last_.size(); ++k) last_[k] += displacement[k];
   for (size_t k = 0; k < last_.size(); ++k) total_[k] += last_[k];
   HistoryRow row;
   row.fill(std::numeric_limits<double>::quiet_NaN());
@@ -201,18 +227,22 @@ static void explain(CrunchState &s) {
   s.monitor.log(JAM_LOG_WARNING, "%s", s.out.text.c_str());
 }
 
-// The work that was done. A crunch that was stopped before an LP ended has no contacts, so rattlers are unknown.
+// The work that was done. A crunch that was stopped where no LP has named contacts says nothing of them.
 static void report_work(CrunchState &s) {
   jam_crunch_report &r = s.out.report;
   r.method = s.history.stage.path_taken ? JAM_CRUNCH_BARRIER_PATH : JAM_CRUNCH_SEQUENTIAL_LP;
   r.decompressions = s.history.stage.decompressions;
   r.factorisations = s.system.factorisations;
   r.seconds = s.monitor.seconds();
-  const bool unknown =
-      r.stop_reason == JAM_STOP_CANCELLED || r.stop_reason == JAM_STOP_WALL_TIME || r.stop_reason == JAM_STOP_SOLVER;
+  const bool unknown = r.stop_reason == JAM_STOP_CANCELLED || r.stop_reason == JAM_STOP_WALL_TIME ||
+                       r.stop_reason == JAM_STOP_SOLVER ||
+                       (r.stop_reason == JAM_STOP_LP_LIMIT && s.last.active.coordination.empty());
   if (!unknown || s.out.contacts.size() > 0) return;
-  r.rattlers = r.contacts = r.bucklers = -1, r.stable = 0;
-  r.force_residual = r.min_force = r.max_contact_gap = std::numeric_limits<double>::quiet_NaN();
+  r.contacts = r.rattlers = r.bucklers = r.isostatic_contacts = r.flexes = r.zero_force_contacts =
+      r.undecided_contacts = r.undercoordinated = r.strict_contacts_needed = -1;
+  r.stable = r.excess_contacts = 0;
+  r.rigidity_margin = r.force_residual = r.min_force = r.min_gap = r.max_contact_gap = r.force_scale =
+      std::numeric_limits<double>::quiet_NaN();
 }
 
 void report_end(CrunchState &s) {

@@ -188,6 +188,64 @@ CASE(history_steps_add_up_to_the_packing) {
     for (int method = 0; method < 2; ++method) steps_add_up(dim, method);
 }
 
+typedef struct total {
+  jam_system *sys;
+  double sum[24];
+} total;
+
+static int32_t add_step(const jam_progress *p, void *user) {
+  total *t = user;
+  double x[24];
+  (void)p;
+  if (jam_crunch_step(t->sys, x, 24, NULL, 0, NULL, 0, NULL, 0, NULL) == JAM_OK)
+    for (int k = 0; k < 24; ++k) t->sum[k] += x[k];
+  return 0;
+}
+
+/* The largest component, modulo the cell (2, 2), of what the steps of a crunch leave of the way from x0 to the end. */
+static double left_by_steps(jam_system *sys, const total *t, const double *x0) {
+  const double *x = view_of(sys, JAM_VIEW_POSITIONS);
+  double cell[4], most = 0.0;
+  assert_int_equal(jam_get_cell(sys, cell, 4, NULL), JAM_OK);
+  for (int k = 0; k < 12; ++k) {
+    double u = x[2 * k] - x0[2 * k] - t->sum[2 * k], v = x[2 * k + 1] - x0[2 * k + 1] - t->sum[2 * k + 1];
+    const double rows = nearbyint(v / cell[3]);
+    v -= rows * cell[3], u -= rows * cell[2];
+    most = fmax(most, fmax(fabs(v), fabs(remainder(u, cell[0]))));
+  }
+  return most;
+}
+
+/* The same where the cell is free: strains move spheres too. A cell that gets other vectors may turn with its spheres,
+ * and with them all that was counted. */
+CASE(steps_of_a_free_cell_add_up) {
+  const double cells[2][4] = {{2.0, 0.0, 0.0, 0.5}, {1.0, 0.0, 0.0, 1.0}};
+  int straight = 0;
+  for (int seed = 1; seed < 11; ++seed)
+    for (int method = 0; method < 2; ++method) {
+      double x0[24], most = 0.0, mean[2] = {0.0, 0.0};
+      SIZED(jam_crunch_report, r);
+      total t = {NULL, {0.0}};
+      DEFAULTS(create, c);
+      c.dim = 2, c.n = 12, c.seed = seed, c.packing_fraction = 0.3;
+      OWNED jam_system *sys = created_in_cell(&c, cells[seed % 2], 4, NULL, 0, NULL, 0);
+      memcpy(x0, view_of(sys, JAM_VIEW_POSITIONS), sizeof x0);
+      t.sys = sys;
+      DEFAULTS(crunch, o);
+      o.strain = JAM_STRAIN_FREE, o.method = method, o.steps = 1;
+      assert_int_equal(jam_set_progress(sys, add_step, &t), JAM_OK);
+      assert_true(jam_crunch(sys, &o, &r) >= 0);
+      if (strstr(jam_notes(sys), "rotated")) continue;
+      ++straight;
+      const double left = left_by_steps(sys, &t, x0);
+      if (!(left < 1e-12)) fail_msg("seed %d, method %d: steps leave %g", seed, method, left);
+      for (int k = 0; k < 24; ++k) mean[k % 2] += t.sum[k] / 12.0;
+      for (int k = 0; k < 12; ++k) most = fmax(most, hypot(t.sum[2 * k] - mean[0], t.sum[2 * k + 1] - mean[1]));
+      assert_true(fabs(r.displacement_max * r.diameter_mean - most) < 1e-12);
+    }
+  assert_true(straight > 10);
+}
+
 static int32_t asks_in_vain(const jam_progress *p, void *user) {
   jam_system *sys = *(jam_system **)user;
   size_t needed;

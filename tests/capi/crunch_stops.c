@@ -71,12 +71,23 @@ static jam_crunch_report crunch_into(const ambush *given, int n, int timed, jam_
     jam_crunch_report r = crunch(*sys, &o, timed ? JAM_LIMIT : JAM_CANCELLED);
     assert_int_equal(jam_set_log(*sys, NULL, 0, NULL), JAM_OK);
     assert_int_equal(r.stop_reason, timed ? JAM_STOP_WALL_TIME : JAM_STOP_CANCELLED);
-    assert_true(!r.jammed && a.after <= 1);
+    assert_true(r.jammed == (a.sprung && o.prove) && a.after <= 1); /* a proof is of a packing that was found jammed */
     if (a.sprung) return r;
     if (!timed || limit > 1000.0) fail_msg("no line begins with '%s'", a.word);
     jam_destroy(*sys);
     limit *= 4.0;
   }
+}
+
+/* What follows from contacts is as unknown as they are. */
+static void nothing_of_contacts(const jam_crunch_report *r) {
+  const int64_t counts[] = {r->contacts,           r->rattlers,         r->bucklers,
+                            r->isostatic_contacts, r->flexes,           r->zero_force_contacts,
+                            r->undecided_contacts, r->undercoordinated, r->strict_contacts_needed};
+  const double numbers[] = {r->rigidity_margin, r->force_residual,  r->min_force,
+                            r->min_gap,         r->max_contact_gap, r->force_scale};
+  for (size_t k = 0; k < sizeof counts / sizeof *counts; ++k) assert_int_equal(counts[k], -1);
+  for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) assert_true(isnan(numbers[k]));
 }
 
 /* A trap in one phase, then the same call again without it. Nothing is lost. */
@@ -127,7 +138,8 @@ CASE(wall_time_inside_an_lp) {
     a.word = solver ? "estimate" : "ipm";
     o.lp_solver = solver;
     jam_crunch_report r = crunch_into(&a, solver ? 600 : 100, 1, o, &sys);
-    assert_true(r.lp_solves == 0 && r.contacts == -1 && r.rattlers == -1 && r.stable == 0);
+    assert_true(r.lp_solves == 0 && r.stable == 0 && r.excess_contacts == 0);
+    nothing_of_contacts(&r);
     same_view(plain, sys, JAM_VIEW_POSITIONS);
   }
 }
@@ -218,7 +230,10 @@ CASE(a_limit_leaves_no_older_verdict) {
         if (r.stop_reason != JAM_STOP_LP_LIMIT || r.gain < o.gain_tolerance) continue;
         ++limits;
         assert_false(r.stationary || r.jammed);
-        assert_true(r.flexes == 0 && r.zero_force_contacts == 0 && r.rigidity_margin == 0.0);
+        if (r.contacts < 0)
+          nothing_of_contacts(&r);
+        else
+          assert_true(r.flexes == 0 && r.zero_force_contacts == 0 && r.rigidity_margin == 0.0);
       }
     }
   }
@@ -242,5 +257,49 @@ CASE(a_stop_leaves_no_older_contacts) {
   assert_int_equal(jam_set_log(sys, spring, JAM_LOG_DEBUG, &a), JAM_OK);
   jam_crunch_report r = crunch(sys, &o, JAM_CANCELLED);
   if (!a.sprung) fail_msg("no LP behind the saddle");
-  assert_true(r.contacts == -1 && r.rattlers == -1 && !r.stationary && isnan(r.max_contact_gap));
+  assert_false(r.stationary);
+  nothing_of_contacts(&r);
+}
+
+/* A proof that is stopped leaves the packing, its network and the verdict; the next call makes the proof. */
+CASE(stops_in_the_proof) {
+  DEFAULTS(crunch, o);
+  o.prove = 1;
+  for (int timed = 0; timed < 2; ++timed) {
+    OWNED jam_system *sys = NULL;
+    ambush a;
+    memset(&a, 0, sizeof a);
+    a.word = "proof of";
+    jam_crunch_report r = crunch_into(&a, 100, timed, o, &sys);
+    assert_true(strstr(jam_last_error(), "proof") && r.contacts > 0 && r.stationary);
+    assert_true(r.theorem == JAM_THEOREM_NONE && r.proof_cause == JAM_CAUSE_NONE);
+    assert_true(r.status == (timed ? JAM_LIMIT : JAM_CANCELLED));
+    jam_crunch_report done = crunch(sys, &o, JAM_OK);
+    assert_true(done.theorem == JAM_THEOREM_EXACT && done.contacts == r.contacts);
+  }
+}
+
+/* A crystal with vacancies has narrow LPs and decompressions behind its first LPs: max_lps counts all LPs. */
+CASE(no_more_lps_than_allowed) {
+  double sites[2 * 64];
+  const double side = 8.0, h = sqrt(0.75), cell[4] = {side, 0.0, 0.5 * side, h * side}, diameter = 0.999;
+  int limits = 0;
+  size_t n = 0;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j)
+      if (i != 1 || (j != 2 && j != 3)) sites[2 * n] = i + 0.5 * j, sites[2 * n++ + 1] = h * j;
+  DEFAULTS(create, c);
+  c.dim = 2, c.n = (int64_t)n;
+  for (int32_t most = 1; most < 16; ++most) {
+    SIZED(jam_crunch_report, r);
+    OWNED jam_system *sys = created_in_cell(&c, cell, 4, sites, 2 * n, &diameter, 1);
+    DEFAULTS(crunch, o);
+    o.max_lps = most;
+    const jam_status status = jam_crunch(sys, &o, &r);
+    if (r.lp_solves > most) fail_msg("%lld LPs, where %d are allowed", (long long)r.lp_solves, most);
+    limits += r.stop_reason == JAM_STOP_LP_LIMIT;
+    assert_true((r.stop_reason == JAM_STOP_LP_LIMIT) == (status == JAM_LIMIT));
+    if (r.contacts < 0) nothing_of_contacts(&r);
+  }
+  assert_true(limits > 2);
 }

@@ -214,6 +214,8 @@ CASE(jamming) {
   REFUSED(crunch, max_lps, 0, -1);
   REFUSED(crunch, lp_solver, 9);
   REFUSED(crunch, gain_tolerance, NAN);
+  REFUSED(crunch, step_bound, -1, 1e-16, 1001, NAN);
+  REFUSED_SAYING("gain_tolerance", o.gain_tolerance = 1e-6, crunch, step_bound, 1e-15, 9e-7); /* no LP gains enough */
   REFUSED(crunch, prove, 2);
   REFUSED(radii, moments, -1, 5);
   REFUSED_WITH(o.moments = 2, radii, exponent_2, 1.0);

@@ -251,3 +251,24 @@ CASE(notes_are_kept) {
 }
 
 FIXTURE(make_scratch, remove_scratch)
+
+/* A crunch that is refused, or has too little memory to begin, leaves network, report, history and a pause. */
+CASE(a_refused_crunch_changes_nothing) {
+  for (int paused = 0; paused < 2; ++paused) {
+    OWNED jam_system *sys = start(3, 60, 0.3, JAM_OVERLAP_REFUSE), *before = NULL;
+    SIZED(jam_estimate_report, e);
+    assert_int_equal(crunch(sys, JAM_STRAIN_NONE, 0, paused ? 1e-4 : 0.0, 0), JAM_OK);
+    before = copy_of(sys);
+    const int32_t phase = info_of(sys).paused;
+    assert_int_equal(phase, paused ? JAM_PHASE_CRUNCH : 0);
+    DEFAULTS(crunch, o);
+    o.neighbour_radius = 0.5;
+    SAYS(jam_crunch(sys, &o, NULL), JAM_E_ARGUMENT, "neighbour radius");
+    SAYS(jam_estimate_crunch(sys, &o, &e), JAM_E_ARGUMENT, "neighbour radius");
+    o.neighbour_radius = 0.0, o.step_bound = 1000.0, o.method = JAM_CRUNCH_SEQUENTIAL_LP;
+    assert_int_equal(jam_crunch(sys, &o, NULL), JAM_E_MEMORY);
+    same_results(before, sys, 1);
+    assert_int_equal(info_of(sys).paused, phase);
+    assert_string_equal(jam_notes(sys), jam_notes(before));
+  }
+}

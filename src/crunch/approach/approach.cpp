@@ -54,8 +54,7 @@ Phase next_phase(CrunchState &s, double gain, double step, double alpha) {
   if (!gained) ++s.next.stalled;
   if (alpha == 0.0 || (s.next.stalled > 0 && s.next.stalled >= s.tuning.max_narrow_lps))
     return stop(s, JAM_STOP_STALLED, JAM_NOT_CONVERGED), Phase::identify;
-  if (s.out.report.lp_solves >= s.o.max_lps) return stop(s, JAM_STOP_LP_LIMIT, JAM_LIMIT), Phase::identify;
-  if (stop_if_interrupted(s)) return Phase::identify;
+  if (stop_at_lp_limit(s) || stop_if_interrupted(s)) return Phase::identify;
   if (s.o.step_bound == 0.0) {
     const double most = alpha < 1.0 ? s.tuning.shrink * s.next.bound : s.tuning.max_bound;
     s.next.bound = std::min(std::max({s.tuning.bound_per_step * step, gain, s.tuning.min_bound}), most);
@@ -90,6 +89,7 @@ LpAnswer solve_lp(CrunchState &s, IpmControl control) {
 }
 
 Phase approach(CrunchState &s) {
+  if (stop_at_lp_limit(s)) return Phase::identify;
   const double reach = build_lp(s, lp_reach(s.out.packing, s.o, s.tuning, s.next.bound));
   IpmControl control;
   control.tolerance = s.o.lp_tolerance;

@@ -77,32 +77,26 @@ double take_step(Packing &p, PairList &pairs, double reach, const LpSolution &x,
   return alpha;
 }
 
-// Rows are the pairs whose gap is below the radius minus the largest diameter (lp_reach): there must be one.
-static void check_radius(const Packing &p, double radius, const PairList &pairs) {
-  const double widest = contact_distance_max(p) / diameter_mean(p);
-  if (radius > 0.0 && radius < widest)
-    fail(JAM_E_ARGUMENT, "the neighbour radius %g is below the largest diameter, %.3g (both in mean diameters)", radius,
-         widest);
-  if (pairs.size() == 0)
-    fail(JAM_E_ARGUMENT,
-         "no pair within the neighbour radius %g: it leaves gaps below %.3g beside the largest diameter", radius,
-         radius - widest);
-}
-
 double build_lp(CrunchState &s, double reach) {
   s.last.active = ActiveSet();  // it belongs to the list that is replaced: an interrupted LP leaves no contacts
-  if (s.next.strain.count() > 0) shorten_cell(s.out.packing, s.out.notes);
+  if (s.next.strain.count() > 0)
+    if (const auto entered = shorten_cell(s.out.packing, s.out.notes)) s.history.turn(s.out.packing, *entered);
   PairList pairs = find_pairs(s.out.packing, reach, 1.0);
   // A few spheres, or very unequal ones, may be farther apart than their bound lets them move. Something must bound
   // their growth: the nearest pair, at last a sphere and its own image.
   for (; pairs.size() == 0 && s.o.neighbour_radius == 0.0; reach *= 2.0)
     pairs = find_pairs(s.out.packing, 2.0 * reach, 1.0);
-  check_radius(s.out.packing, s.o.neighbour_radius, pairs);
+  if (pairs.size() == 0)
+    fail(JAM_E_ARGUMENT,
+         "no pair within the neighbour radius %g: it leaves gaps below %.3g beside the largest diameter",
+         s.o.neighbour_radius, s.o.neighbour_radius - widest_contact(s.out.packing));
   s.last.pairs = std::move(pairs);
   s.last.lp = make_lp(s.out.packing, s.last.pairs, diameter_mean(s.out.packing), s.next.strain);
   s.last.lp.bound = s.next.bound;
   return reach;
 }
+
+double widest_contact(const Packing &p) { return contact_distance_max(p) / diameter_mean(p); }
 
 double first_bound(const Packing &p, const jam_crunch_options &o, const Tuning &t) {
   if (o.step_bound > 0.0) return o.step_bound;

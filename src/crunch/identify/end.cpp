@@ -136,7 +136,7 @@ bool polish_contacts(CrunchState &s) {
     end = polish(s.out.packing, s.out.contacts, s.system, s.o.threads, tuning, &s.monitor);
   } catch (const Cancelled &) {  // it works on copies: the contacts of the last LP stay
   }
-  s.last.pairs.clear();  // polish left another graph in the system
+  s.last.pairs.clear(), s.last.active = ActiveSet();  // polish left another graph in the system
   if (end == PolishEnd::interrupted) return stop_if_interrupted(s), false;
   s.found.polished = end == PolishEnd::done;
   if (s.found.polished) {

@@ -178,7 +178,7 @@ Phase narrow_lps(CrunchState &s) {
   const double narrowest = std::sqrt(t.closed_gap);  // the motion whose square is rounding
   s.next.moved = 0.0;                                // they begin at an optimum: its forces are near theirs
   s.next.bound = std::min(s.next.bound, t.narrow_bound);
-  for (int k = 0; k < t.max_narrow_lps; ++k) {
+  for (int k = 0; k < t.max_narrow_lps && !stop_at_lp_limit(s); ++k) {
     const double reach = build_lp(s, t.reach_per_bound * s.next.bound * diameter_mean(s.out.packing));
     IpmControl control;
     control.tolerance = s.o.lp_tolerance * s.next.bound;

@@ -148,14 +148,14 @@ Phase follow_path(CrunchState &s) {
   BarrierPathResult path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
   // Forces do not balance at every point of the path: then it continues to a smaller gap.
   while (path.reached && path.gap > s.tuning.path_end(s.out.packing) && s.o.duality_gap > 0.0 &&
-         !stop_if_interrupted(s)) {
+         !stop_if_interrupted(s) && !stop_at_lp_limit(s)) {
     if (ends_at_gap(s, path.multipliers)) return Phase::done;
     control.from = s.history.stage.path;
     control.least_gap = s.tuning.reduction * path.gap;
     path = follow_barrier_path(s.out.packing, control, s.system, s.monitor);
   }
   if (s.history.behind(s.out.packing)) add_history_row(s, path.gap, 0, PathPoint());
-  if (stop_if_interrupted(s)) return Phase::identify;
+  if (stop_if_interrupted(s) || stop_at_lp_limit(s)) return Phase::identify;
   s.history.stage.path = PathPoint();
   s.monitor.log(JAM_LOG_INFO, "path: %s duality gap %.2e after %d factorisations, %d saddles, phi %.12f",
                 path.reached ? "reached" : "stopped at", path.gap, path.factorisations, path.increases,

@@ -6,7 +6,9 @@ import pickle
 import subprocess
 import sys
 import unittest
+import unittest.mock
 import warnings
+from types import SimpleNamespace
 
 import numpy as np
 
@@ -163,6 +165,49 @@ class Gsd(Folder):
             found = jam.System.read(self.path + change + ".gsd", doubles=False)
             self.assertEqual(found.diameters[0], f.particles.diameter[0])
 
+    def test_doubles_agree_to_the_rounding_of_other_processors(self):
+        """The floats of another one have other last digits, and lie on the other side of the cell where they were near it."""
+        import gsd.hoomd
+
+        cell = np.array([[1.1, 0.0, 0.0], [-0.4, 0.9, 0.0], [0.3, 0.2, 1.3]])
+        x = np.random.default_rng(1).random((50, 3)) @ cell
+        for dim in (2, 3):
+            s = jam.System.from_arrays(x[:, :dim], diameters=1e-4, cell=cell[:dim, :dim], dim=dim)
+            s.write(self.path)
+            with gsd.hoomd.open(self.path, "rb") as file:
+                f = file[0]
+            there, sides = f.particles.position.copy(), np.pad(cell[:dim, :dim], ((0, 0), (0, 3 - dim))).astype("f4")
+            f.particles.position = np.nextafter(there, np.float32(1), where=there != 0, out=there.copy())
+            f.particles.position[:dim] += sides
+            self.write(f)
+            np.testing.assert_array_equal(jam.System.read(self.path).positions, s.positions)
+            for axis in range(3):
+                f.particles.position = there.copy()
+                f.particles.position[7, axis] += 1e-5
+                self.write(f)
+                self.refused(["particles/position", "log/jam"], jam.System.read, self.path)
+
+    def test_names_are_those_of_either_release_of_the_package(self):
+        """gsd 3 has Frame and the modes r and w alone, those before 2.8 Snapshot, rb and wb."""
+        import gsd.hoomd
+
+        opened, s = gsd.hoomd.open, jam.System.random(n=64, seed=3, packing_fraction=0.1)
+
+        def open_as_3(name, mode):
+            self.assertIn(mode, ("r", "w"))
+            return opened(name, mode + "b")
+
+        with unittest.mock.patch.object(gsd, "hoomd", SimpleNamespace(Frame=gsd.hoomd.Snapshot, open=open_as_3)):
+            s.write(self.path)
+            np.testing.assert_array_equal(jam.System.read(self.path).positions, s.positions)
+
+    def test_endings_are_read_and_written_in_either_case(self):
+        s = jam.System.random(n=64, seed=3, packing_fraction=0.1)
+        s.write(path := str(self.folder / "f.GSD"))
+        np.testing.assert_array_equal(jam.System.read(path).positions, s.positions)
+        with self.assertRaisesRegex(ValueError, "without scale and density"):
+            s.write(path, scale=2.0)
+
     def test_what_the_file_holds_is_not_taken_twice(self):
         f = self.frame()
         f.particles.diameter = np.full(64, 0.5)
@@ -220,6 +265,10 @@ class Gsd(Folder):
             (["--input", out, "--no-crunch", "--output", again], 0),
             (["--input", os.path.join(self.folder, "none.gsd")], 3),
             (["--n", "20", "--dim", "4", "--no-md", "--no-crunch", "--output", again], 2),  # d = 2 and 3 alone
+            (["--n", "20", "--no-md", "--no-crunch", "--output", str(self.folder / "UPPER.GSD")], 0),
+            (["--n", "20", "--no-crunch", "--output", again + ".gz"], 2),  # before the work
+            (["--input", self.path, "--no-md", "--no-crunch", "--box", "8"], 0),
+            (["--input", self.path, "--no-md", "--no-crunch", "--box", "9"], 3),
         ):
             done = subprocess.run([sys.executable, "-m", "jam", "--quiet", *words], capture_output=True, text=True)
             self.assertEqual((done.returncode, bool(done.stderr)), (code, code > 0), done.stderr)

@@ -8,7 +8,9 @@ from typing import Any
 from . import raw
 from ._api.calls import freeze
 from ._api.generated import OPTIONS, Container
+from ._api.options import option_struct
 from ._api.shown import only
+from ._formats import gsd
 from ._formats.replacing import replacing
 from .errors import JamError
 from .system import System
@@ -33,7 +35,10 @@ def _read(path: str, options: Any) -> Any:
     given["container"] = Container(options.container).name.lower()
     given["walls"] = "".join(axis for c, axis in enumerate("xyz") if options.walls >> c & 1)
     try:
-        return System.read(path, frame=frame, **given).handle
+        made = System.read(path, frame=frame, **given)
+        if options.box not in (made.box, option_struct("jam_create_options", {}).box):
+            raise ValueError(f"{path}: the option box is {options.box:g}, but the file has {made.box:g}: leave the option out")
+        return made.handle
     except (JamError, ValueError, IndexError, OSError, ImportError) as error:
         _say(error)
         return None
@@ -51,7 +56,9 @@ def main(arguments: list[str] | None = None) -> int:
     def check(output: str | None, picture: str | None) -> bool:
         try:
             if output is not None:
-                import gsd.hoomd  # noqa: F401
+                gsd.package()
+                if not gsd.is_name(output):  # with .gz behind it
+                    raise ValueError(f"--output {output}: GSD files are not compressed")
             if picture is not None:
                 _check_picture(picture)
         except (ImportError, ValueError) as error:

@@ -189,7 +189,7 @@ class System(Verbs, Writing, PoreSpace, Copies, Converting):
         array([4., 4., 8.])
         """
         name = os.fsdecode(path)
-        if name.lower().endswith(".gsd"):
+        if gsd.is_name(name):
             given = {key: value for key, value in options.items() if value is not None}
             return cls._noted(*gsd.arguments(name, **given))
         for unknown in ("diameters", "radii"):

@@ -15,6 +15,26 @@ def unknown_array(shape: Any, dtype: Any = np.float64) -> Array:
     return np.full(shape, np.nan if np.dtype(dtype).kind == "f" else -1, dtype)
 
 
+def placed(part: Array, cell: Array) -> Array:
+    """Vectors (..., d) from their fractions of the cell's. BLAS would sum in another order on each processor."""
+    return np.asarray(sum(part[..., c, None] * cell[c] for c in range(len(cell))))
+
+
+def parts(x: Array, cell: Array) -> Array:
+    """The fractions (..., d) of vectors in a cell that is a lower triangle."""
+    part = np.array(x, float)
+    for c in reversed(range(len(cell))):
+        part[..., c] /= cell[c, c]
+        part[..., :c] -= part[..., c, None] * cell[c, :c]
+    return part
+
+
+def nearest(x: Array, cell: Array) -> Array:
+    """Vectors (..., d) less those of the cell: each fraction is from -1/2 to below 1/2."""
+    part = parts(x, cell)
+    return placed(part - np.floor(part + 0.5), cell)
+
+
 def as_rows(columns: Any) -> Array:
     """The columns of a table, a named tuple, as a structured array."""
     rows = np.empty(len(columns[0]), [(name, "f8") for name in columns._fields])

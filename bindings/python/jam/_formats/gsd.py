@@ -6,33 +6,44 @@ from typing import Any
 
 import numpy as np
 
-from .._api.arrays import Array
+from .._api.arrays import Array, nearest
 from .._api.given import refuse_unstored, sizes_of
 from .frames import agreed, bad, chosen, placed, readable, say_unread
 from .replacing import replacing
 
 # Positions are float32 in GSD's schema, which opens and closes gaps of 1e-7. The doubles are kept beside them.
 _KEPT = ("jam/position", "jam/diameter", "jam/cell")
+_POSITION, _DIAMETER, _SHAPES, _RADII = "particles/position", "particles/diameter", "particles/type_shapes", "state/hpmc/sphere/radius"
 # What every frame is read from; its number of steps says nothing about the packing.
-_READ = {"configuration/step", "configuration/dimensions", "configuration/box", "particles/N", "particles/position"}
-_DIAMETER, _SHAPES, _RADII = "particles/diameter", "particles/type_shapes", "state/hpmc/sphere/radius"
+_READ = {"configuration/step", "configuration/dimensions", "configuration/box", "particles/N", _POSITION}
+
+
+def is_name(path: str | os.PathLike[str]) -> bool:
+    """Whether the ending is that of GSD."""
+    return os.fsdecode(path).lower().endswith(".gsd")
+
+
+def package() -> tuple[Any, str]:
+    """The module gsd.hoomd, and what its modes "r" and "w" end in: gsd 3 took the b away together with Snapshot."""
+    import gsd.hoomd
+
+    return gsd.hoomd, "b" if hasattr(gsd.hoomd, "Snapshot") else ""
 
 
 def write(path: str | os.PathLike[str], system: Any) -> None:
     """Writes one frame: float32 for every reader of GSD, and the doubles in chunks log/jam, which `arguments` prefers."""
     system = system.copy()  # of one moment
     refuse_unstored(system, "GSD")
-    import gsd.hoomd
-
+    hoomd, binary = package()
     positions, diameters, cell = system.positions, system.diameters, system.cell
     if len(cell) > 3:
         raise ValueError(f"GSD has two or three dimensions, this packing has d = {len(cell)}")
-    frame = gsd.hoomd.Snapshot()
+    frame = hoomd.Frame() if hasattr(hoomd, "Frame") else hoomd.Snapshot()
     frame.configuration.dimensions = len(cell)
     frame.particles.N = len(diameters)
     frame.configuration.box, frame.particles.position, frame.particles.diameter = _schema(positions, diameters, cell).values()
     frame.log = {name: np.array(value) for name, value in zip(_KEPT, (positions, diameters, cell))}
-    with replacing(path) as part, gsd.hoomd.open(part.name, "wb") as file:
+    with replacing(path) as part, hoomd.open(part.name, "w" + binary) as file:
         file.append(frame)
 
 
@@ -46,11 +57,10 @@ def arguments(
     **options: Any,
 ) -> tuple[dict[str, Any], list[str]]:
     """What System.from_arrays takes for one frame, and notes; the arguments are those of jam.files.read_gsd."""
-    import gsd.hoomd
-
+    hoomd, binary = package()
     name = readable(path, options)
     try:
-        opened = gsd.hoomd.open(name, "rb")
+        opened = hoomd.open(name, "r" + binary)
     except RuntimeError as error:  # the package's only word for a file that is none of GSD
         raise bad(name, f"no GSD file that can be read: {error}") from None
     with opened as file:
@@ -82,9 +92,16 @@ def _schema(x: Array, diameters: Array, cell: Array) -> dict[str, Array]:
     box[3] = cell[1, 0] / cell[1, 1]
     if d == 3:
         box[4:] = cell[2, 0] / cell[2, 2], cell[2, 1] / cell[2, 2]
-    s = np.linalg.solve(cell.T, np.asarray(x).T).T - 0.5
-    centred[:, :d] = (s - np.floor(s + 0.5)) @ cell
-    return {"configuration/box": box, "particles/position": centred, _DIAMETER: diameters}
+    centred[:, :d] = nearest(x - 0.5 * cell.sum(0), cell)
+    return {"configuration/box": box, _POSITION: centred, _DIAMETER: diameters}
+
+
+def _close(x: Array, there: Array, cell: Array) -> bool:
+    """Whether positions are those of a file but for the last digits of a float32 and vectors of the cell, in which the
+    arithmetic of processors differs."""
+    d = len(cell)
+    apart = np.abs(nearest(np.asarray(there, float)[:, :d] - x[:, :d], cell))
+    return bool((apart <= np.finfo(np.float32).eps * np.abs(cell).sum(0)).all()) and np.array_equal(x[:, d:], there[:, d:])
 
 
 class _Frame:
@@ -107,8 +124,8 @@ class _Frame:
 
     def placed(self, notes: list[str]) -> dict[str, Any]:
         """Positions from the corner of the cell, and its vectors."""
-        if self.n > 1 and not self.has("particles/position"):
-            raise bad(self.path, f"frame {self.at} has no chunk particles/position")
+        if self.n > 1 and not self.has(_POSITION):
+            raise bad(self.path, f"frame {self.at} has no chunk {_POSITION}")
         lx, ly, lz, xy, xz, yz = (float(v) for v in self.one.configuration.box)
         cell = np.array([[lx, 0, 0], [xy * ly, ly, 0], [xz * lz, yz * lz, lz]])
         x = np.asarray(self.one.particles.position)
@@ -129,8 +146,10 @@ class _Frame:
         wrong = ["the number of spheres or dimensions"]
         if [value.shape for value in kept] == [(self.n, self.dim), (self.n,), (self.dim, self.dim)]:
             found = self.one.configuration.box, self.one.particles.position, self.one.particles.diameter
-            both = zip(_schema(*kept).items(), found)
-            wrong = [name for (name, value), there in both if not np.array_equal(value.astype(np.float32), there)]
+            wrong = [
+                name for (name, value), there in zip(_schema(*kept).items(), found)
+                if not (_close(value, there, kept[2]) if name == _POSITION else np.array_equal(value.astype(np.float32), there))
+            ]
         if wrong:
             raise bad(
                 self.path,

@@ -43,7 +43,7 @@ class Writing(State, Network):
             Of the spheres, in the unit of LAMMPS data, which alone have a place for it.
         """
         name = os.fsdecode(path)
-        if format == "auto" and name.endswith(".gsd"):
+        if format == "auto" and gsd.is_name(name):
             if scale != 1.0 or density != 1.0:
                 raise ValueError("GSD files are written without scale and density")
             return gsd.write(name, self)

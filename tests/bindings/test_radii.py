@@ -185,6 +185,9 @@ class Search(unittest.TestCase):
         self.assertEqual(values, sorted(values, reverse=True))
         self.assertLessEqual(len(values), 10)
 
+    def test_a_search_without_a_maximum_has_no_sum(self):
+        self.assertTrue(np.isnan(jam.radii.Search([], 3, 0, 0.0).value))
+
     def test_a_search_without_an_end_is_refused(self):
         with self.assertRaisesRegex(ValueError, "starts, seconds or until"):
             jam.radii.best_of(5)

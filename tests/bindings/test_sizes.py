@@ -92,6 +92,7 @@ class Laws(unittest.TestCase):
                 self.assertAlmostEqual(found / x, 1, delta=3e-3)
 
     def test_a_list_has_its_shares(self):
+        self.assertEqual(len(jam.sizes("equal", 10.0)), 10)  # a whole number, as elsewhere
         s = jam.sizes("list", 10, curve={1.4: 0.3, 1.0: 0.7})
         self.assertEqual(list(s), [1.0] * 7 + [1.4] * 3)
         filled = jam.sizes("list:1=0.5,2=0.5,share=volume", porosity=0.5, box=20.0)
@@ -107,6 +108,19 @@ class Densities(unittest.TestCase):
         self.assertEqual(report.stop_reason.name, "PACKING_FRACTION")
         self.assertLess(abs(packing.packing_fraction - 0.55), 1e-12)
         np.testing.assert_allclose(packing.diameters, s, rtol=1e-12)
+
+    def test_the_volume_is_that_of_the_library(self):
+        """To the bit: LAPACK has another on each processor."""
+        for k in range(20):
+            vectors = np.random.default_rng(k).uniform(-1, 1, (3, 3)) + 1.5 * np.eye(3)
+            packing = jam.System.random(8, cell=vectors)
+            made = [jam.sizes("lognormal:mean=0.3,deviation=0.2", porosity=0.6, cell=c) for c in (vectors, packing.cell)]
+            np.testing.assert_array_equal(*made)
+            volume = np.prod(np.diag(packing.cell))
+            self.assertAlmostEqual(np.pi / 6 * np.sum(made[0] ** 3) / volume, 0.4, delta=1e-13)
+        for wrong in ([[0.0, 1.0], [1.0, 0.0]], [[1.0, 0.0], [2.0, 0.0]]):
+            with self.assertRaisesRegex(ValueError, "determinant"):
+                jam.sizes("equal", porosity=0.5, cell=wrong, dim=2)
 
     def test_starts_by_porosity(self):
         self.assertAlmostEqual(jam.System.random(20, porosity=0.75).packing_fraction, 0.25, delta=1e-14)
@@ -147,6 +161,7 @@ class Densities(unittest.TestCase):
             (TypeError, "needs cell or box", lambda: jam.sizes("equal", porosity=0.5)),
             (ValueError, "porosity is 1.5", lambda: jam.sizes("equal", porosity=1.5, box=9.0)),
             (TypeError, "deviation is given twice", lambda: jam.sizes("normal:deviation=0.1", 5, deviation=0.2)),
+            (TypeError, "n must be a whole number", lambda: jam.sizes("equal", 5.5)),
             (TypeError, "did you mean", lambda: jam.sizes("normal", 5, deviatoin=0.1)),
             (ValueError, r"shape \(rows, 2\)", lambda: jam.sizes("sieve", 5, curve=[1, 2, 3])),
             (jam.errors.ArgumentError, "diameters", lambda: jam.size_report([1.0, -1.0])),

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ._api.arrays import Array
+from ._api.arrays import Array, parts, placed
 from ._api.given import closed_axes, walls_of
 from ._api.shown import only
 from ._formats.replacing import replacing, writing
@@ -53,33 +53,33 @@ class Search(NamedTuple):
 
     @property
     def value(self) -> float:
-        """The largest sum."""
-        return self.best[0].value
+        """The largest sum; nan where no start has ended at a maximum."""
+        return self.best[0].value if self.best else float("nan")
 
 
 def _separations(x: Array, point: Array, cell: Array, closed: Array) -> Array:
     """Vectors to a point; of the images the nearest, but for cells that are far from rectangular."""
-    part = (x - point) @ np.linalg.inv(cell)
-    return np.where(closed, part, part - np.round(part)) @ cell
+    part = parts(x - point, cell)
+    return placed(np.where(closed, part, part - np.round(part)), cell)
 
 
 def _moved(packing: System, closed: Array, turning: int, rng: np.random.Generator) -> tuple[Array, Array]:
     """Positions and radii after one random move. The wall turns about the centre of so many first axes."""
     x, radii, cell = packing.positions.copy(), packing.diameters / 2, packing.cell
     n, d = x.shape
-    unit = (abs(np.linalg.det(cell)) / n) ** (1 / d)
+    unit = (float(np.prod(np.diag(cell))) / n) ** (1 / d)
     length = unit * 10 ** rng.uniform(SMALLEST, LARGEST)
     kind = int(rng.integers(4)) if n > 1 else 0
     if kind == 0:
         x += length * rng.normal(size=x.shape)
     elif kind == 1:
-        point = rng.random(d) @ cell
+        point = placed(rng.random(d), cell)
         near = np.argsort((_separations(x, point, cell, closed) ** 2).sum(1))[: int(rng.integers(2, 9))]
         x[near] += 0.3 * unit * rng.normal(size=(len(near), d)) * rng.random()
     elif kind == 2:
         moved = int(rng.integers(n))
         others = np.arange(n) != moved
-        points = rng.random((HOLES, d)) @ cell
+        points = placed(rng.random((HOLES, d)), cell)
         room = [float((np.sqrt((_separations(x[others], p, cell, closed) ** 2).sum(1)) - radii[others]).min()) for p in points]
         best = int(np.argmax(room))
         x[moved], radii[moved] = points[best], max(room[best], 0.1 * radii.min())

@@ -25,24 +25,31 @@ def density_of(packing_fraction: float | None, porosity: float | None) -> float 
     return 1.0 - float(porosity)
 
 
-def _curve(curve: Any, law: str) -> tuple[str, Any]:
-    """Rows of a curve, or the law's text with the name of the file that holds them."""
-    if curve is None:
-        return law, None
+def rows_of(law: str, curve: Any) -> tuple[str, Any]:
+    """The law's text without the file that it or `curve` names, and the rows (rows, 2) of this file or of the curve."""
     if isinstance(curve, (str, os.PathLike)):
         name = os.fsdecode(curve)
         if set(",=") & set(name):
             raise ValueError(f"{name!r}: rename the file of the curve: a comma or = in its name is part of a law's text")
-        return law + ("," if ":" in law else ":") + name, None
-    rows = as_array(list(curve.items()) if isinstance(curve, dict) else curve, name="curve")
-    if rows.ndim != 2 or rows.shape[1] != 2:
-        raise ValueError(f"curve must have shape (rows, 2), not {rows.shape}")
-    return law, rows.reshape(-1)
+        law, curve = law + ("," if ":" in law else ":") + name, None
+    if curve is not None:
+        rows = as_array(list(curve.items()) if isinstance(curve, dict) else curve, name="curve")
+        if rows.ndim != 2 or rows.shape[1] != 2:
+            raise ValueError(f"curve must have shape (rows, 2), not {rows.shape}")
+        return law, rows
+    head, _, items = str(law).partition(":")
+    fields = [item for item in items.split(",") if "=" in item]
+    if ",".join(fields) == items:
+        return law, None
+    made = option_struct("jam_diameters_options", {})
+    rows = np.empty(raw.jam_parse_diameters(law, made, None)[1])
+    raw.jam_parse_diameters(law, made, rows)
+    return ":".join([head, *filter(None, [",".join(fields)])]), rows.reshape(-1, 2)
 
 
 def volume_of(container: int, cell: Array) -> float:
     """Of the container in this cell, as the library has it. No system has no sphere: here is a small one in the middle."""
-    dim, size = len(cell), 1e-3 * float(np.abs(np.diag(cell)).min())
+    dim, size = len(cell), 1e-9 * float(np.abs(cell).sum())
     made, info = option_struct("jam_create_options", {"dim": dim, "container": container}), new_report("jam_info")
     raw.jam_get_info(raw.jam_create(made, 0.5 * cell.sum(0)[None], np.array([size]), cell.reshape(-1), None)[1], info)
     return float(info.volume)
@@ -108,11 +115,7 @@ def sizes(
     side, vectors = cell_of(box, cell, dim)
     if side is not None:
         vectors = side * np.eye(dim)
-    volume = None if vectors is None else float(np.linalg.det(vectors))
-    if volume is not None and not volume > 0:
-        raise ValueError(f"cell has the volume {volume:g}: its vectors are left-handed, or lie in one plane")
-    if container not in (None, "brick") and vectors is not None:
-        volume = volume_of(enclosure_of(container, None, dim)[0], vectors)
+    volume = None if vectors is None else volume_of(enclosure_of(container, None, dim)[0], vectors)
     if fraction is not None and volume is None:
         raise TypeError("a density needs cell or box")
     if n is None and fraction is None:
@@ -121,7 +124,7 @@ def sizes(
         raise TypeError("give n or a density: from the density in the cell n follows")
     if "walls" in options:
         raise TypeError("flat walls take no volume of the cell: give walls= to System.random, and here container= where it is round")
-    text, rows = _curve(curve, law)
+    text, rows = rows_of(law, curve)
     plain = dict(options, n=n, dim=dim, cell_volume=volume, packing_fraction=fraction)
     raw.jam_parse_diameters(text, option_struct("jam_diameters_options", {}), None)  # names laws before their options
     made = option_struct("jam_diameters_options", plain)
@@ -135,7 +138,8 @@ def sizes(
             raise TypeError("the law's text and curve both give rows")
         rows = np.empty(count)
         raw.jam_parse_diameters(text, made, rows)
-    out = np.empty(raw.jam_diameters(made, rows, None)[1] if n is None else max(n, 0))
+    rows = None if rows is None else rows.reshape(-1)
+    out = np.empty(raw.jam_diameters(made, rows, None)[1] if n is None else max(made.n, 0))
     raw.jam_diameters(made, rows, out)
     return out
 

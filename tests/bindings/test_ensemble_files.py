@@ -3,6 +3,8 @@ import json
 import pickle
 import tempfile
 import unittest
+import unittest.mock
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -71,6 +73,22 @@ class Protocols(unittest.TestCase):
                              "add_note", "write_stl", "compare")
             ),
             (dict(n=10, analysis={"bond_order": {"l": 6}}), "cutoff"),
+            *(
+                (dict(n=10, dim=2, analysis={name: given}), f"analysis.'{name}'.: .*{text}")
+                for name, given, text in (
+                    ("modes", {"kk": 3}, "unknown option 'kk'"), ("modes", {"k": -1}, "count is -1"), ("gaps", {"h_max": "0.1x"}, "double"),
+                    ("gaps", {"h_max": -1.0}, "h_max is -1"), ("moduli", {"stiffness": "q"}, "stiffness"),
+                    ("pair_correlation", {"kind": [0, 1], "a": 0, "b": 1}, "kind must have shape"),
+                    ("isoconf", {"instants": [2.0, 1.0]}, "ascending"), ("isoconf", {"instants": [1.0], "runs": -2}, "-2 runs"),
+                )
+            ),
+            *(
+                (wrong, f"{where}.* must be .*not ")
+                for wrong, where in (
+                    ({"stages": 5}, "stages"), ({"stages": None}, "stages"), ([1, 2], "protocol"), ({"analysis": ["gaps"]}, "analysis"),
+                    ({"start": 3}, "start"), ({"crunch": True}, "crunch"), ({"analysis": {"gaps": 3}}, r"analysis\['gaps'\]"), (7, "protocol"),
+                )
+            ),
             (dict(n=10, model="flat"), "flat"),
             (dict(n=10, stages=[(-1.0, 10.0)]), r"stages\[0\]: growth_rate is -1"),
             (dict(n=10, crunch={"strain": "volume"}), "crunch: strain is 4, which frees the volume"),
@@ -87,6 +105,21 @@ class Protocols(unittest.TestCase):
                 jam.ensemble.complete(wrong)
         for right in (dict(stages=[SOFT], crunch=None), dict(stages=[SOFT, SOFT, {"verb": "decompress"}]), dict(stages=[SOFT, {"verb": "relax"}])):
             jam.ensemble.complete(dict(right, n=10))
+        for right in (
+            {"pair_correlation": {"kind": [0, 1] * 5, "a": 0, "b": 1}}, {"isoconf": {"instants": [1e9]}, "isoconf_series": {"block": 0}},
+            {"observed_gaps": {}}, {"mk_shifts": {}}, {"modes": {"k": 10**6}},  # of the packing, not of the protocol
+        ):
+            self.assertEqual(set(jam.ensemble.complete(dict(n=10, dim=2, analysis=right))["analysis"]), set(right))
+
+    def test_an_analysis_that_fails_keeps_the_packing(self):
+        protocol = jam.ensemble.complete(dict(SMALL, analysis={"gaps": {}}))
+        for error in (ValueError("of numpy"), jam.errors.ArgumentError("of the library")):
+            with unittest.mock.patch.object(jam.System, "gaps", side_effect=error):
+                system, results = jam.ensemble.make(protocol, 1)
+            self.assertEqual((results["gaps"], system.report.jammed), (f"not available: {error}", True))
+        for error in (ImportError("no scipy"), jam.errors.MemoryError("the limit"), OSError("disk")):  # of the machine
+            with unittest.mock.patch.object(jam.System, "gaps", side_effect=error), self.assertRaises(type(error)):
+                jam.ensemble.make(protocol, 1)
 
     def test_the_error_of_a_wrong_analysis_lists_the_names_that_measure(self):
         with self.assertRaises(ProtocolError) as refused:
@@ -101,6 +134,28 @@ class Protocols(unittest.TestCase):
         self.assertNotEqual(a.name(1), a.name(2))
         self.assertNotEqual(a.name(1), b.name(1))
         self.assertNotEqual(a.name(1), jam.ensemble.packing_name(a.id, 1, "other algorithm"))
+
+    def test_rows_of_curves_stand_in_the_protocol(self):
+        """A file may change, and each worker would look for it in its own folder."""
+        rows, made = [[1.0, 0.0], [2.0, 100.0]], {}
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "s.csv")
+            path.write_text("1,0\n2,100\n")
+            given = [{"law": "sieve", "curve": curve} for curve in (rows, str(path), path, {1.0: 0.0, 2.0: 100.0}, np.array(rows))]
+            for law in [*given, {"law": f"sieve:{path}"}, {"law": f"sieve:share=volume,{path}"}]:
+                made[str(law)] = jam.ensemble.complete(dict(n=16, dim=2, diameters=law))
+            path.write_text("1,0\n8,100\n")
+            other = jam.ensemble.complete(dict(n=16, dim=2, diameters=given[1]))
+        for protocol in made.values():
+            self.assertEqual(protocol["start"]["diameters"]["curve"], rows)
+            diameters = jam.ensemble.begin(json.loads(jam.ensemble.to_json(protocol)), 1).diameters
+            self.assertLess(diameters.max() / diameters.min(), 2.0)
+        identities = {jam.ensemble.identity(protocol) for protocol in made.values()}
+        self.assertEqual(len(identities), 2)  # share=volume is spelled out in one
+        self.assertNotIn(jam.ensemble.identity(other), identities)
+        text = {"law": "list:1=0.5,1.4=0.5"}
+        self.assertEqual(jam.ensemble.complete(dict(n=16, dim=2, diameters=text))["start"]["diameters"], text)
+        self.assertEqual(jam.ensemble.identity(jam.ensemble.complete(dict(n=128))), "2c3245921be5")
 
     def test_laws_of_diameters(self):
         law = {"law": "lognormal", "deviation": 0.004}

@@ -141,11 +141,9 @@ class Network(Analysis):
             h = option_struct("jam_hessian_options", {"stiffness": stiffness, "alpha": alpha, "prestress": prestress})
             o = option_struct("jam_modes_options", dict(options, which=which, count=k))
             spheres = self._ask("hessian_map")
-            m = (
-                min(k, self.dim * len(spheres))
-                if as_enum(which, "ModesWhich", "which") != ModesWhich.ALL
-                else self.dim * len(spheres)
-            )
+            m = self.dim * len(spheres)
+            if as_enum(which, "ModesWhich", "which") != ModesWhich.ALL:
+                m = max(0, min(k, m))  # the library refuses less than 1
             table, vectors = unknown_array((m, len(ModeColumn))), unknown_array((m, len(spheres), self.dim))
             status, m = raw.jam_modes(handle, h, o, raw.JAM_MODE_COLUMNS, table.reshape(-1), vectors.reshape(-1))
             self._note(not_cancelled(status))

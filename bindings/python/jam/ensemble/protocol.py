@@ -8,7 +8,7 @@ import hashlib
 import inspect
 import json
 from contextlib import contextmanager, suppress
-from typing import Any, Iterator, Mapping, Sequence
+from typing import Any, Iterable, Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from .._api.documented import changing, measuring
 from .._api.generated import GROWTH_STAGES, OPTIONS, StatusCode
 from .._api.given import cell_of, enclosure_of
 from .._api.options import option_struct, spelled_out, unknown
-from .._api.size_laws import sizes as draw_sizes
+from .._api.size_laws import rows_of, sizes as draw_sizes
 from .._formats.write_packing import ALGORITHM
 from .._system.verbs import stage_of
 from ..system import System
@@ -44,6 +44,13 @@ def _entry(where: str) -> Iterator[None]:
         raise ProtocolError(f"{where}: {error}") from None
 
 
+def _dict(given: Any, where: str) -> dict[str, Any]:
+    """An entry that is one, or null in place of an empty one."""
+    if not isinstance(given, (Mapping, type(None))):
+        raise ProtocolError(f"{where} must be a dict, not {given!r}")
+    return dict(given or {})
+
+
 def _options(struct: str, given: Mapping[str, Any], leave_out: tuple[Any, ...] = ()) -> dict[str, Any]:
     """All options of a struct, those that are not given at the library's defaults."""
     known = [k for k in OPTIONS[struct] if k not in leave_out]
@@ -66,6 +73,9 @@ def _diameters(given: Any, n: int, dim: int) -> Any:
     if unknown := set(law) - known - {"law"}:
         raise ProtocolError("diameters: " + text.format(", ".join(sorted(unknown)), " and ".join(sorted(known))))
     with _entry(f"diameters {dict(given)!r}"):
+        text, rows = rows_of(str(law["law"]), law.get("curve"))
+        if rows is not None and not isinstance(law.get("curve"), (list, tuple)):  # of a file, which may change, or of a dict
+            law.update(law=text, curve=rows.tolist())
         sizes_of_law(law, n, dim, 1)
     return law
 
@@ -88,12 +98,29 @@ def _start(given: Mapping[str, Any]) -> dict[str, Any]:
     return {**made, "diameters": diameters}
 
 
-def _check_room(start: Mapping[str, Any]) -> None:
-    """A density that no seed reaches is one of the protocol."""
+def _check_room(start: Mapping[str, Any]) -> System | None:
+    """A density that no seed reaches is one of the protocol. Returns the first start."""
     for seed in (1, 2, 3) if start["n"] <= _MOST_TRIED else ():
         with suppress(errors.JamError) if seed < 3 else _entry("start: no packing of seeds 1, 2, 3 can begin"):
-            begin({"start": start}, seed)
-            return
+            return begin({"start": start}, seed)
+    return None
+
+
+def _check_analysis(analysis: Mapping[str, Any], system: System) -> None:
+    """Options that the library refuses, asked of a start in calls that stop at once. What a start lacks, such as forces or the
+    runs of an earlier analysis, is none of the protocol."""
+    with suppress(errors.JamError):  # a network, without which options are not looked at
+        system.contacts_from_geometry()
+    for name, given in analysis.items():
+        if given and not any(name.startswith(f"{other}_") for other in analysis):
+            call = getattr(system, name)
+            stop = {"progress": lambda _: True} if "progress" in inspect.signature(call).parameters else {}
+            with _entry(f"analysis[{name!r}]"):
+                try:
+                    call(**given, **stop)
+                except errors.JamError as error:
+                    if isinstance(error, errors.ArgumentError):
+                        raise
 
 
 def _stage(given: Mapping[str, Any] | Sequence[float]) -> dict[str, Any]:
@@ -159,8 +186,11 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
     ProtocolError
         Names the entry that is wrong and what is allowed there.
     """
-    given = copy.deepcopy(dict(protocol or {}))
-    start, crunch = dict(given.get("start") or {}), given.get("crunch", {})
+    given = copy.deepcopy(_dict(protocol, "the protocol"))
+    start, crunch = _dict(given.get("start"), "start"), given.get("crunch", {})
+    stages, analysis = given.get("stages", GROWTH_STAGES), _dict(given.get("analysis", ANALYSIS), "analysis")
+    if isinstance(stages, (str, Mapping)) or not isinstance(stages, Iterable):
+        raise ProtocolError(f"stages must be a list, not {stages!r}")
     made: dict[str, Any] = {"start": None, "stages": [], "crunch": None, "analysis": {}}
     for key in [k for k in given if k not in made]:
         if key in start:
@@ -168,17 +198,18 @@ def complete(protocol: Mapping[str, Any] | None = None) -> dict[str, Any]:
         start[key] = given[key]
     with _entry("start"):
         made["start"] = _start(start)
-    for k, stage in enumerate(given.get("stages", GROWTH_STAGES)):
+    for k, stage in enumerate(stages):
         with _entry(f"stages[{k}]"):
             made["stages"].append(_stage(stage))
     if crunch is not None:
         with _entry("crunch"):
-            made["crunch"] = _options("jam_crunch_options", crunch)
-    for name, options in (given.get("analysis", ANALYSIS) or {}).items():
+            made["crunch"] = _options("jam_crunch_options", _dict(crunch, "it"))
+    for name, options in analysis.items():
         with _entry(f"analysis[{name!r}]"):
-            made["analysis"][name] = _analysis(name, options or {})
+            made["analysis"][name] = _analysis(name, _dict(options, "it"))
     _check_calls(made)
-    _check_room(made["start"])
+    if (begun := _check_room(made["start"])) is not None:
+        _check_analysis(made["analysis"], begun)
     with _entry("the protocol cannot be written as JSON"):
         return json.loads(to_json(made))
 
@@ -248,7 +279,7 @@ def begin(protocol: Mapping[str, Any], seed: int) -> System:
 def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]]:
     """Makes one packing, also when it is not jammed, as its report says; and results of the analysis by name.
 
-    A call that this packing cannot answer, such as one that needs a jammed network, gives its error's text.
+    A call that fails, such as one that needs a jammed network, gives its error's text. Errors of the machine are raised.
     """
     system = begin(protocol, seed)
     for stage in protocol["stages"]:
@@ -262,6 +293,8 @@ def make(protocol: Mapping[str, Any], seed: int) -> tuple[System, dict[str, Any]
     for name, given in protocol["analysis"].items():
         try:
             results[name] = getattr(system, name)(**given)
-        except (errors.StateError, errors.UnsupportedError) as error:
+        except (ImportError, MemoryError, OSError, errors.BusyError):  # the next run tries again
+            raise
+        except Exception as error:
             results[name] = f"not available: {error}"
     return system, results

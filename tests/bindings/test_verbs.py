@@ -167,6 +167,36 @@ class Callbacks(unittest.TestCase):
         self.assertIn("raising", names)
         self.check_valid(s)
 
+    def test_the_record_keeps_calls_that_moved_and_those_alone(self):
+        def raising(progress):
+            raise jam.JamError("mine")
+
+        def writing(progress):
+            s.write("no/such/folder/x.xyz")
+
+        for progress, kind in ((raising, jam.JamError), (writing, jam.errors.IoError), (lambda p: 1 / 0, ZeroDivisionError)):
+            s = jam.System.random(n=64, dim=2, seed=1)
+            before = s.positions.copy()
+            with self.assertRaises(kind):
+                s.run(2000, progress=progress)
+            self.assertGreater(np.abs(s.positions - before).max(), 0.0)
+            self.assertEqual([(c["verb"], c["status"]) for c in s.calls], [("run", "cancelled")])
+            self.assertIs(s.status, jam.StatusCode.CANCELLED)
+        for refused in (lambda: s.run(-1), lambda: s.run(1, progress=3), lambda: s.run(1, colour=2), s.relax):
+            with self.assertRaises(Exception):
+                refused()
+            self.assertEqual(len(s.calls), 1)
+
+    def test_a_checkpoint_that_cannot_be_written_is_a_warning(self):
+        s, twin = (jam.System.random(n=60, dim=2, seed=3, diameters=[1.0, 1.4] * 30) for _ in range(2))
+        with self.assertWarnsRegex(UserWarning, "no/such/folder/c"):
+            report = s.crunch(checkpoint="no/such/folder/c", checkpoint_every=0.0)
+        twin.crunch()
+        np.testing.assert_array_equal(s.positions, twin.positions)
+        self.assertEqual((report.jammed, s.calls[-1]["status"], s.status), (True, "ok", jam.StatusCode.OK))
+        with self.assertWarnsRegex(UserWarning, "no/such/folder/c"):  # the one of an early end
+            self.assertEqual(start().crunch(checkpoint="no/such/folder/c", wall_time=1e-6).status, jam.StatusCode.LIMIT)
+
     def test_exception_in_log_reaches_the_caller(self):
         def raising(level, line):
             raise KeyError(line)

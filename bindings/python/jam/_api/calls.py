@@ -165,6 +165,7 @@ def invoke(handle: Any, dim: int, name: str, args: tuple[Any, ...], named: dict[
         try:
             status, *scalars = function(*first, *passed)
         except exceptions.BufferError:
+            raw.jam_set_error("")
             scalars[count] = -1
         same(scalars[count], m)
     if not any(isinstance(o, tuple) and "stop_reason" in REPORTS[o[1]].__annotations__ for o in outputs.values()):

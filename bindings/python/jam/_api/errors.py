@@ -57,6 +57,11 @@ def last_text() -> str:
     return _in_python(raw.jam_last_error())
 
 
+def refused(error: BaseException) -> bool:
+    """Whether this thread's last call of the library has raised an exception itself, and no callable that it called."""
+    return isinstance(error, JamError) and bool(text := last_text()) and str(error).startswith(text)
+
+
 def make(status: int, text: str, call: str = "") -> JamError:
     """The exception for a status; called by the raw layer with the name of its function."""
     kind = BY_STATUS.get(status, JamError)

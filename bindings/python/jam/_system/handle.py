@@ -9,7 +9,7 @@ import numpy as np
 
 from .. import errors, raw
 from .._api.calls import finished, freeze, invoke
-from .._api.errors import last_text
+from .._api.errors import last_text, refused
 from .._api.generated import Info, Progress, Report, StatusCode
 from .methods import Methods
 from .progress import end, reporter
@@ -119,7 +119,7 @@ class Base(Methods):
             yield
         except BaseException as error:
             text = last_text()
-            if isinstance(error, errors.JamError) and error.status is not None:
+            if isinstance(error, errors.JamError) and error.status is not None and (refused(error) or not text):
                 self.status, self.status_text = error.status, str(error)
             elif text:  # Ctrl-C, an exception of a callable or cancel() has stopped the library
                 self.status, self.status_text = StatusCode.CANCELLED, text

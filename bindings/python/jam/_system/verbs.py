@@ -4,6 +4,7 @@ from __future__ import annotations
 import os
 import re
 import time
+import warnings
 from typing import Any, Callable, Iterable, Mapping, Sequence, TypeVar
 
 import numpy as np
@@ -12,6 +13,7 @@ from .. import raw
 from .._api.arrays import Array, as_array, as_rows, as_vector
 from .._api.calls import freeze, new_report
 from .._api.documented import takes
+from .._api.errors import refused
 from .._api.generated import CrunchReport, DecompressReport, MdReport, MonteCarloReport, RadiiReport, RelaxReport, ShearReport, StatusCode, StopReason
 from .._api.options import as_enum, option_struct, spelled_out
 from .._api.size_laws import density_of
@@ -45,18 +47,18 @@ class Verbs(Observing):
         said.update({k: a.tolist() for k, a in arrays.items() if a is not None})
         call = {"verb": verb, "options": said}
         call.update(status="running", stop_reason="none")  # what a callable saves meanwhile says so
-        self.calls.append(call)
-        try:
-            with self._reporting(progress):
+        with self._reporting(progress):
+            self.calls.append(call)
+            try:
                 status = getattr(raw, "jam_" + verb)(handle, chosen, *arrays.values(), made)
-                frozen: Report = freeze(made, report)
-                self._note(status, frozen)
-        except JamError:  # nothing has moved
-            self.calls[:] = [c for c in self.calls if c is not call]
-            raise
-        except BaseException:  # of the callable, or Ctrl-C: it has stopped the call, whose last step stays
-            call.update(status="cancelled", stop_reason="cancelled")
-            raise
+            except BaseException as error:
+                if refused(error):  # nothing has moved
+                    self.calls[:] = [c for c in self.calls if c is not call]
+                else:  # the callable or Ctrl-C has stopped the call, whose last step stays
+                    call.update(status="cancelled", stop_reason="cancelled")
+                raise
+            frozen: Report = freeze(made, report)
+            self._note(status, frozen)
         reason = getattr(getattr(frozen, "stop_reason", None), "name", "none")
         call.update(status=StatusCode(status).name.lower(), stop_reason=reason.lower())
         return frozen
@@ -175,6 +177,7 @@ class Verbs(Observing):
         checkpoint : path-like, optional
             Name of a file that gets the last step while the call runs. After a kill,
             System.from_checkpoint(checkpoint).crunch() goes on from there. It ends jammed, not always with the same bits.
+            A file that cannot be written is a warning.
         checkpoint_every : float
             Seconds between checkpoints. Default 60.
 
@@ -203,8 +206,15 @@ class Verbs(Observing):
             end(user)
         early = report.status in (StatusCode.CANCELLED, StatusCode.LIMIT)
         if checkpoint is not None and (early or report.stop_reason == StopReason.DUALITY_GAP):
-            raw.jam_write_checkpoint(self.handle, os.fsdecode(checkpoint))
+            self._keep(os.fsdecode(checkpoint))
         return report
+
+    def _keep(self, path: str) -> None:
+        """Writes a checkpoint. A full disk is no reason to lose the packing."""
+        try:
+            raw.jam_write_checkpoint(self.handle, path)
+        except JamError as error:
+            warnings.warn(f"no checkpoint was written: {error}", stacklevel=3)
 
     def _keeper(self, path: str, every: float, told: Callable[[Any], Any] | None) -> Callable[[Any], bool]:
         """A progress callable that writes a checkpoint now and then."""
@@ -214,7 +224,7 @@ class Verbs(Observing):
             nonlocal kept
             if time.monotonic() - kept >= every:
                 kept = time.monotonic()
-                raw.jam_write_checkpoint(self.handle, path)
+                self._keep(path)
             return bool(told(p)) if told else False
 
         return on_progress

@@ -110,6 +110,8 @@ class Names(Case):
         self.assertEqual(self.file(3).read_bytes(), data)
         with self.warned("omitted"):
             self.assertEqual(self.seeds(), [1, 2, 3])
+        status = self.make([1, 2, 3], search=False)  # looks beside the other packing too
+        self.assertEqual((status.made, status.done, status.missing), (0, 3, 0))
         self.file(1).unlink()  # the other one is the packing of seed 1
         self.assertEqual(self.seeds(), [1, 2, 3])
         self.assertEqual(self.make([1, 2, 3]).made, 0)

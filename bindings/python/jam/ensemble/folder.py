@@ -19,6 +19,7 @@ import time
 import warnings
 from contextlib import suppress
 from functools import partial
+from itertools import chain, count
 from pathlib import Path
 from random import SystemRandom
 from tempfile import TemporaryFile
@@ -65,17 +66,25 @@ class Folder:
     def failure(self, name: str) -> Path:
         return self.packing(name).with_suffix(".json")
 
+    def _beside(self, name: str) -> Iterator[Path]:
+        """Where the packing of a name may lie: if the file of another packing has the place, it is NAME-2.h5, and so on up to
+        the first that is not there."""
+        path = self.packing(name)
+        yield path
+        for k in count(2):
+            if not path.exists():
+                return
+            path = path.with_stem(f"{name}-{k}")
+            yield path
+
     def place(self, name: str) -> tuple[Path, str]:
-        """Where a packing lies or may be written, and what is there: "done", "damaged" or "". If the file of another
-        packing has the place, it is NAME-2.h5, and so on."""
-        beside = 1
-        while (path := self.packing(name if beside == 1 else f"{name}-{beside}")).exists():
+        """Where a packing lies or may be written, and what is there: "done", "damaged" or ""."""
+        for path in self._beside(name):
             try:
-                if self.row(path, None)["name"] == name.encode():
+                if path.exists() and self.row(path, None)["name"] == name.encode():
                     return path, "done"
             except StoreError:
                 return path, "damaged"
-            beside += 1
         return path, ""
 
     def prepare(self) -> None:
@@ -118,7 +127,7 @@ class Folder:
 
     def _places(self, names: Iterable[str] | None, wrong: dict[Path, str]) -> Iterator[tuple[Path, str | None]]:
         """The places of packings, in files of one and in shards. Tells what is wrong with shards that cannot be read."""
-        yield from ((path, None) for path in (self.found(".h5") if names is None else map(self.packing, names)))
+        yield from ((path, None) for path in (self.found(".h5") if names is None else chain(*map(self._beside, names))))
         for path in self._shards():
             try:
                 yield from [(path, inner) for inner in names_in(path)]

@@ -18,7 +18,7 @@ NAMES = {
     "jam.errors": "ArgumentError BufferError BusyError ClosedError DimensionError FormatError InternalError IoError JamError "
     "MemoryError NonfiniteError NullError OverlapError SolverError StateError StoppedError StoreError StructSizeError "
     "TooFewError UnplaceableError UnsupportedError",
-    "jam.files": "half_bonds read_ase read_gsd write_contacts_csv write_csv write_gaps_csv write_gsd write_spectrum_csv "
+    "jam.files": "Format formats half_bonds read_ase read_gsd write_contacts_csv write_csv write_gaps_csv write_gsd write_spectrum_csv "
     "write_structure_csv write_vtk write_vtk_network",
     "jam.near_jamming": "Estimate ModeWeights Prediction Predictors Runs campaign clone_distance clone_overlap "
     "collapse_exponent correlation_errors correlations decay_curve is_caged median_over_mean mode_weights overlap prediction "

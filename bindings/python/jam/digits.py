@@ -17,6 +17,7 @@ import numpy as np
 
 from ._api.arrays import Array
 from ._api.shown import only
+from ._api.size_laws import contact_distance
 from .errors import StateError
 from .system import System
 
@@ -91,7 +92,7 @@ def _images(system: System) -> Array:
     """n of each contact, r = x_i - x_j + n H, 0 at walls: whole numbers for one sign of the contact vectors."""
     (i, j), x, sigma, inverse = system.contacts.pairs.T, system.positions, system.diameters, np.linalg.inv(system.cell)
     pair, j = (j >= 0)[:, None], np.where(j < 0, i, j)
-    distance = 0.5 * (sigma[i] + sigma[j]) * np.where(sigma[i] == sigma[j], 1.0, 1.0 + system.info.non_additivity)
+    distance = contact_distance(sigma[i], sigma[j], system.info.non_additivity)
     ways = [sign * distance[:, None] * system.contacts.vectors - (x[i] - x[j]) for sign in (1, -1)]
     parts = [pair * (way @ inverse) for way in ways]
     return np.round(min(parts, key=lambda n: float(abs(n - np.round(n)).max(initial=0.0)))).astype(int)

@@ -15,14 +15,15 @@ from ._api.arrays import Array
 from ._api.calls import not_cancelled
 from ._api.results import Modes
 from ._api.shown import only
+from ._api.size_laws import contact_distance
 from ._formats import frames, gsd
 from ._formats.replacing import replacing
 from .errors import StateError
 from .system import System
 
 __all__ = [
-    "half_bonds", "read_ase", "read_gsd", "write_contacts_csv", "write_csv", "write_gaps_csv", "write_gsd",
-    "write_spectrum_csv", "write_structure_csv", "write_vtk", "write_vtk_network",
+    "Format", "formats", "half_bonds", "read_ase", "read_gsd", "write_contacts_csv", "write_csv", "write_gaps_csv",
+    "write_gsd", "write_spectrum_csv", "write_structure_csv", "write_vtk", "write_vtk_network",
 ]
 __dir__ = only(__all__)
 
@@ -68,7 +69,8 @@ def half_bonds(system: System) -> tuple[Array, Array]:
     c, x, s = system.contacts, system.positions, system.diameters
     wall = c.pairs[:, 1] < 0  # as if the sphere touched its mirror image, cut at the wall
     i, j = c.pairs[:, 0], np.where(wall, c.pairs[:, 0], c.pairs[:, 1])
-    half = (0.25 * np.where(wall, s[i], s[i] + s[j]) * (1.0 + c.gaps))[:, None] * c.vectors
+    distance = contact_distance(s[i], s[j], system.info.non_additivity)
+    half = (np.where(wall, 0.25, 0.5) * distance * (1.0 + c.gaps))[:, None] * c.vectors
     a, b = x[i], np.where(wall[:, None], x[i] - 2 * half, x[j])
     ends = np.concatenate([np.stack([a, a - half], 1), np.stack([b, b + half], 1)])
     return ends, np.tile(np.arange(len(c)), 2)

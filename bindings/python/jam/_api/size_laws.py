@@ -47,6 +47,11 @@ def rows_of(law: str, curve: Any) -> tuple[str, Any]:
     return ":".join([head, *filter(None, [",".join(fields)])]), rows.reshape(-1, 2)
 
 
+def contact_distance(a: Array, b: Array, non_additivity: float) -> Array:
+    """Of the centres of touching spheres with the diameters a and b."""
+    return np.asarray(0.5 * (a + b) * np.where(a == b, 1.0, 1.0 + non_additivity))
+
+
 def volume_of(container: int, cell: Array) -> float:
     """Of the container in this cell, as the library has it. No system has no sphere: here is a small one in the middle."""
     dim, size = len(cell), 1e-9 * float(np.abs(cell).sum())

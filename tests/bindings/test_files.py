@@ -64,6 +64,23 @@ class Files(InFolder):
         np.testing.assert_allclose(made["spectrum"]["omega"] ** 2, modes.values, atol=1e-12)
         self.assertAlmostEqual(modes.values.sum(), 2 * len(contacts), 8)  # each contact adds 1 to each of its spheres
 
+    def test_pages_refuse_complex_modes(self):
+        with self.assertRaisesRegex(TypeError, "modes: .*complex"):
+            self.s.page(self.folder / "p.html", modes=self.s.bloch_modes((0.25, 0)))
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_halves_of_bonds_meet(self):
+        """Where the two spheres touch: in the middle for equal ones, also of a mixture that is not additive."""
+        mixture = jam.System.random(n=64, dim=2, diameters=[1.0, 1.4] * 32, seed=1, non_additivity=0.2)
+        mixture.compress(growth_rate=0.1, pressure=1e3)
+        mixture.crunch()
+        for s in (self.s, mixture):
+            ends, index = jam.files.half_bonds(s)
+            first, second = ends.reshape(2, -1, 2, 2)
+            apart = (first[:, 1] - second[:, 1]) / s.box
+            self.assertLess(np.abs(apart - np.round(apart)).max(), 1e-9)
+            np.testing.assert_array_equal(index, np.tile(np.arange(len(s.contacts)), 2))
+
     def test_densities_that_are_lost_are_noted(self):
         """libjam has equal masses, or masses as the volumes."""
         path = self.folder / "a.data"

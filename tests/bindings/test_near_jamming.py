@@ -40,7 +40,8 @@ def test_runs(packing):
     q = (sets**2).sum((1, 2)) / packing.n
     assert np.allclose(q.std(), runs.deviation("msd")[1], rtol=1e-6)
     # parts of a campaign are the campaign, bit for bit
-    first = packing.isoconf([2, 10, 50], runs=20, keep=[1], **options)
+    first = packing.isoconf([2, 10, 50], runs=20, keep=np.array([1]), **options)
+    assert first.origin == runs.origin
     second = packing.isoconf([2, 10, 50], first_run=20, runs=40, keep=[1], **options)
     joined = first.merge(second)
     for name in ("displacement", "square", "distance2", "distance4"):

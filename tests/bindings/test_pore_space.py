@@ -180,6 +180,9 @@ class Image(unittest.TestCase):
         s = jam.System.random(20, packing_fraction=0.1)
         with self.assertRaisesRegex(ValueError, "shape must have 3"):
             s.image(shape=(3, 3))
+        for none in (0, -3):
+            with self.assertRaisesRegex(ValueError, "at least 1"):
+                s.image(shape=(3, none, 3))
         with self.assertRaisesRegex(jam.errors.ArgumentError, "voxels"):
             s.image(size=1e-9)
         with self.assertRaisesRegex(jam.errors.UnsupportedError, r"\.npy.*\.mha.*\.vti"):

@@ -53,6 +53,13 @@ class Estimators(unittest.TestCase):
             scaling.fit_power([np.array([0.1])], 1.0)
         with self.assertRaisesRegex(ValueError, "values in the range"):
             scaling.fit_power([np.array([0.1]), np.array([0.2])], 1e-3, 1e-4)
+        two = [np.array([0.1, 0.3]), np.array([0.2])]
+        for low in (0.0, -1.0):
+            with self.assertRaisesRegex(ValueError, "low is .*above 0"):
+                scaling.fit_power(two, 0.5, low)
+        for call in (lambda x: scaling.cdf_grid(x, [0.5]), lambda x: scaling.collapse({8: x, 16: x}, [0.5], [0.4])):
+            with self.assertRaisesRegex(ValueError, "packing 2 has no values"):
+                call([*two, []])
         broken = [np.array([0.1, np.nan]), np.array([0.2])]
         grid = np.linspace(0, 1, 4)
         for call in (

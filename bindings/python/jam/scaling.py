@@ -88,9 +88,18 @@ def cdf_ranked(samples: Sequence[Array]) -> Cdf:
     return Cdf(rows.mean(axis=0), np.arange(1, least + 1) / mean, error, np.full(least, np.nan))
 
 
+def _steps(samples: Sequence[Array], grid: Array, least: int) -> Array:
+    """The step function of each packing on one grid, (packings, grid)."""
+    samples = taken(samples, least)
+    for k, sample in enumerate(samples):
+        if len(sample) == 0:
+            raise ValueError(f"packing {k} has no values, and no distribution of them: leave it out")
+    return np.array([np.searchsorted(np.sort(s), grid, side="right") / len(s) for s in samples])
+
+
 def cdf_grid(samples: Sequence[Array], grid: Array) -> Cdf:
-    """Evaluates the step function of each packing on one grid: the error is one of c."""
-    rows = np.array([np.searchsorted(np.sort(s), grid, side="right") / len(s) for s in taken(samples)])
+    """Evaluates the step function of each packing, which needs values, on one grid: the error is one of c."""
+    rows = _steps(samples, grid, 1)
     error = rows.std(axis=0, ddof=1) / np.sqrt(len(rows)) if len(rows) > 1 else np.full(len(grid), np.nan)
     return Cdf(np.asarray(grid, float), rows.mean(axis=0), np.full(len(grid), np.nan), error)
 
@@ -159,9 +168,11 @@ def fit_power(
     Raises
     ------
     ValueError
-        Fewer than 2 packings, or no values in the range.
+        Fewer than 2 packings, no values in the range, or low <= 0.
     """
     samples = taken(samples, 2)
+    if low is not None and not low > 0.0:
+        raise ValueError(f"low is {low}, it must be above 0; without it the law goes down to 0")
     counts, sums = np.empty(len(samples)), np.empty(len(samples))
     for k, sample in enumerate(samples):
         inside = sample[(sample <= high) & (sample >= (low or 0.0)) & (sample > 0.0)]
@@ -246,7 +257,7 @@ def collapse(
     from scipy.optimize import minimize
 
     grids = {n: np.asarray(grid(n) if callable(grid) else grid, float) for n in samples}
-    rows = {n: np.array([np.searchsorted(np.sort(s), grids[n], "right") / len(s) for s in taken(samples[n], 2)]) for n in samples}
+    rows = {n: _steps(samples[n], grids[n], 2) for n in samples}
     errors = {n: r.std(axis=0, ddof=1) / np.sqrt(len(r)) for n, r in rows.items()}
 
     def best(picked: dict[int, Array], first: Sequence[float] | Array) -> tuple[Array, float]:

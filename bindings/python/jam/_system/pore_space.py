@@ -37,6 +37,8 @@ class PoreSpace(Base):
             given["size"] = size
         if shape is not None:
             given.update((axis, int(number(k, "int", "shape"))) for axis, k in zip(("nx", "ny", "nz"), shape))
+            if min(shape) < 1:
+                raise ValueError(f"each number of shape must be at least 1, not {min(shape)}")
         report, values = self.call("voxels", **given)
         image = values.reshape(report.nz, report.ny, report.nx).T[..., slice(None) if self.dim == 3 else 0]
         if lines:

@@ -259,8 +259,8 @@ def _origin(system: Any, options: dict[str, Any]) -> str:
     for array in (system.positions, system.diameters, system.cell):
         digest.update(np.ascontiguousarray(array).tobytes())
     fixed = {k: v for k, v in options.items() if k not in _FREE}
-    if not fixed.get("keep"):
-        fixed.pop("keep", None)
+    if keep := np.ravel(fixed.pop("keep", ())).tolist():
+        fixed["keep"] = keep
     if fixed.get("monte_carlo") is None:  # {} are the default options of Monte Carlo
         fixed.pop("monte_carlo", None)
     scene = [float(getattr(info, name)) for name in _SCENE]

@@ -109,7 +109,7 @@ class Writing(State, Network):
             else:
                 raise ValueError(f"{name} must have shape ({self.n},) or ({self.n}, {self.dim}), not {column.shape}")
         if modes is not None:
-            for k, vectors in enumerate(modes.vectors):
+            for k, vectors in enumerate(as_array(modes.vectors, name="modes")):
                 whole = np.zeros((self.n, self.dim))
                 whole[modes.spheres] = vectors
                 rows[f"mode {k}, omega {modes.frequencies[k]:.4g}[]"] = whole.T.reshape(-1)

@@ -112,7 +112,7 @@ class Scene:
     """The exact numbers of a file. Lengths `x` and `cell` are integers over `one`, `size` of spheres over `per`."""
 
     def __init__(self, path):
-        self.text = Path(path).read_bytes().decode("ascii")
+        self.text = (zlib.decompress(x, 31) if (x := Path(path).read_bytes())[:2] == b"\x1f\x8b" else x).decode("ascii")
         strange = re.search("[^ -~\n]", self.text)
         refuse(strange, "a character, such as a carriage return, is neither printable ASCII nor a line feed")
         lines = [line.split() for line in self.text.removesuffix("\n").split("\n")]

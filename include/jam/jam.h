@@ -612,9 +612,9 @@ JAM_API jam_status jam_compress(jam_system *sys, const jam_compress_options *o, 
 /* Writes all that the dynamics depend on to a binary file: positions, diameters, velocities, shifts of the MK model,
  * and a stage that was stopped early or runs now. The file also contains the results (contact network, report,
  * histories, kept steps, isoconfigurational runs), but no observations, memory limit or callbacks. A callback that
- * writes a checkpoint while a call moves the spheres saves the packing of the last step, without results. Dynamics
- * continue from the file to the same bits as without a stop. A crunch starts again from the packing that it had
- * reached, and from a dilute start usually ends at another packing. @errors IO */
+ * of jam_run, jam_compress, jam_monte_carlo or jam_crunch saves the packing of the last step, without results; of any
+ * other call that of before the call. Dynamics continue from the file to the same bits as without a stop. A crunch
+ * continues on its path, and from a dilute start usually ends at another packing. @errors IO */
 JAM_API jam_status jam_write_checkpoint(const jam_system *sys, const char *path);
 /* Makes a system from a checkpoint. callback, user: as in jam_start. @errors IO, FORMAT (no checkpoint, or damaged, or
  * from a machine with another byte order), OVERLAP */

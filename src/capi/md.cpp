@@ -184,7 +184,7 @@ jam_status jam_write_checkpoint(const jam_system *sys, const char *path) {
     const Packing now = sys->crunching    ? sys->crunching->reached()
                         : moving.dynamics ? moving.dynamics->current()
                                           : sys->packing;
-    write_checkpoint(now, archive_beside(*sys, moving), path);
+    write_checkpoint(now, archive_beside(*sys, moving, now), path);
     return JAM_OK;
   });
 }

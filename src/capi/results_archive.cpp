@@ -3,8 +3,10 @@
 #include <cmath>
 
 #include "capi/system.hpp"
+#include "core/create.hpp"
 #include "core/error.hpp"
 #include "core/pair_rule.hpp"
+#include "io/files.hpp"
 
 namespace jam::inside {
 namespace {
@@ -84,13 +86,30 @@ void check_history(const std::vector<HistoryRow> &history) {
 struct Waiting {
   std::string crunch, paused, runs, notes;
   int64_t sweeps = 0;
-  bool has_results = false;
+  uint8_t follows = 0;  // sum of the two below
+  static constexpr uint8_t results = 1, start = 2;
   void archive(Archive &a) {
     jam::inside::archive(a, crunch), jam::inside::archive(a, paused), jam::inside::archive(a, runs),
         jam::inside::archive(a, notes);
-    a(sweeps), a(has_results);
+    a(sweeps), a(follows);
+    check(follows <= (results | start));
   }
 };
+
+bool same_configuration(const Packing &a, const Packing &b) {
+  return a.position == b.position && a.diameter == b.diameter && a.cell.rows() == b.cell.rows() &&
+         a.overlap_allowed == b.overlap_allowed;
+}
+
+// The packing that the runs began from, in the form of a checkpoint, whose checks it needs.
+Packing read_start(Archive &a, const Packing &p) {
+  std::string bytes, none;
+  archive(a, bytes);
+  Packing start = packing_of_state(bytes, "the start of the runs", none);
+  check(start.dim == p.dim && start.n() == p.n() && start.seed == p.seed);
+  apply_overlap_policy(start, start.overlap_allowed ? JAM_OVERLAP_ALLOW : JAM_OVERLAP_REFUSE);
+  return start;
+}
 
 }  // namespace
 
@@ -120,7 +139,7 @@ void Results::archive(Archive &a, const Packing &p) {
   check_network(contacts, p, by_distance());
 }
 
-std::string archive_beside(const SystemState &s, const Moving &moving) {
+std::string archive_beside(const SystemState &s, const Moving &moving, const Packing &now) {
   Waiting w;
   const bool moves = moving.crunch || moving.dynamics;
   if (moving.crunch || (!moves && s.crunch_paused))
@@ -130,10 +149,16 @@ std::string archive_beside(const SystemState &s, const Moving &moving) {
   if (s.runs) w.runs = write_dynamics(*s.runs);
   w.sweeps = s.sweeps;
   w.notes = s.notes.text();
-  w.has_results = !moves && (s.has_report || s.by_distance() || s.has_history || !s.soft_history.empty());
+  if (!moves && (s.has_report || s.by_distance() || s.has_history || !s.soft_history.empty()))
+    w.follows |= Waiting::results;
+  if (s.runs && !same_configuration(s.runs->packing(), now)) w.follows |= Waiting::start;
   Archive a;
   w.archive(a);
-  if (w.has_results) {
+  if (w.follows & Waiting::start) {
+    std::string start = bytes_of_state(s.runs->packing(), "");
+    archive(a, start);
+  }
+  if (w.follows & Waiting::results) {
     Results copy = s;
     copy.archive(a, s.packing);
   }
@@ -145,14 +170,15 @@ void read_beside(SystemState &s, std::string bytes) {
   Waiting w;
   w.archive(a);
   check(w.sweeps >= 0);
-  if (w.has_results) s.results().archive(a, s.packing);
+  const Packing start = w.follows & Waiting::start ? read_start(a, s.packing) : s.packing;
+  if (w.follows & Waiting::results) s.results().archive(a, s.packing);
   a.end();
   s.sweeps = w.sweeps;
   s.notes = Notes(std::move(w.notes));
   if (!w.crunch.empty()) s.crunch_paused = CrunchStage::of(w.crunch);
   if (!w.paused.empty()) s.paused = read_dynamics(s.packing, std::move(w.paused));
   if (w.runs.empty()) return;
-  std::unique_ptr<Dynamics> runs = read_dynamics(s.packing, std::move(w.runs));
+  std::unique_ptr<Dynamics> runs = read_dynamics(start, std::move(w.runs));
   check(runs->phase() == JAM_PHASE_ISOCONF && (!s.paused || s.paused->phase() != runs->phase()));
   s.runs.reset(static_cast<Isoconfigurational *>(runs.release()));
 }

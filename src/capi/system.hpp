@@ -132,9 +132,9 @@ struct Moving {
   const Dynamics *dynamics = nullptr;
   const CrunchStage *crunch = nullptr;
 };
-// results_archive.cpp: what a checkpoint holds beside the packing. What moves takes the place of what was paused, and
-// there are no results of a packing that moves.
-std::string archive_beside(const SystemState &s, const Moving &moving);
+// results_archive.cpp: what a checkpoint holds beside the packing, which is `now`. What moves takes the place of what
+// was paused, and there are no results of a packing that moves.
+std::string archive_beside(const SystemState &s, const Moving &moving, const Packing &now);
 // Into a state that holds the packing alone. Damaged bytes throw JAM_E_FORMAT.
 void read_beside(SystemState &s, std::string bytes);
 

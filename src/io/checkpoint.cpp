@@ -87,12 +87,11 @@ void take(const char *&at, std::vector<T> &v, size_t count) {
   at += count * sizeof(T);
 }
 
-// The whole file. What does not begin as a checkpoint is read no further: it may be a device without an end.
-std::string slurp(const char *path) {
-  InputFile file(path);
+// The whole file, unpacked. What does not begin as a checkpoint is read no further: it may be a device without an end.
+std::string slurp(InputFile &file) {
   std::string all;
   std::vector<char> part(65536);
-  for (size_t got; (got = file.read(part.data(), part.size())) > 0;) {
+  for (size_t got; (got = file.read_unpacked(part.data(), part.size())) > 0;) {
     all.append(part.data(), got);
     if (all.size() < sizeof magic) continue;  // a pipe may give a byte at a time
     if (std::memcmp(all.data(), magic, sizeof magic) != 0) return all;
@@ -104,8 +103,7 @@ std::string slurp(const char *path) {
 
 }  // namespace
 
-void write_checkpoint(const Packing &p, const std::string &beside, const char *path) {
-  OutputFile file(path);
+std::string bytes_of_state(const Packing &p, const std::string &beside) {
   Header h{};
   std::memcpy(h.magic, magic, sizeof magic);
   h.n = static_cast<int64_t>(p.n());
@@ -123,8 +121,7 @@ void write_checkpoint(const Packing &p, const std::string &beside, const char *p
   h.mk_zeta = p.mk_zeta;
   h.pressure = p.pressure;
   h.non_additivity = p.non_additivity;
-  std::string &text = file.text();
-  text.assign(reinterpret_cast<const char *>(&h), sizeof h);
+  std::string text(reinterpret_cast<const char *>(&h), sizeof h);
   put(text, p.position);
   put(text, p.diameter);
   put(text, p.velocity);
@@ -133,27 +130,37 @@ void write_checkpoint(const Packing &p, const std::string &beside, const char *p
   put(text, p.wall_pressure);
   const uint64_t sum = checksum(text.data(), text.size());
   text.append(reinterpret_cast<const char *>(&sum), sizeof sum);
+  return text;
+}
+
+void write_checkpoint(const Packing &p, const std::string &beside, const char *path) {
+  OutputFile file(path);
+  file.text() = bytes_of_state(p, beside);
   file.commit();
 }
 
 Packing read_checkpoint(const char *path, std::string &beside) {
-  const std::string all = slurp(path);
+  InputFile file(path);
+  return packing_of_state(slurp(file), file.path().c_str(), beside);
+}
+
+Packing packing_of_state(const std::string &all, const char *name, std::string &beside) {
   Header h{};
   if (all.size() > sizeof magic && std::memcmp(all.data(), magic, sizeof magic - 1) == 0 &&
       all[sizeof magic - 1] != magic[sizeof magic - 1])
-    fail(JAM_E_FORMAT, "%s is a checkpoint of another version of libjam", path);
+    fail(JAM_E_FORMAT, "%s is a checkpoint of another version of libjam", name);
   if (all.size() < sizeof h + 8 || std::memcmp(all.data(), magic, sizeof magic) != 0)
-    fail(JAM_E_FORMAT, "%s is no checkpoint of libjam; jam_read reads files of packings", path);
+    fail(JAM_E_FORMAT, "%s is no checkpoint of libjam; jam_read reads files of packings", name);
   std::memcpy(&h, all.data(), sizeof h);
   const int32_t other_dim = with_bytes_reversed(h.dim);
   if (other_dim >= 2 && other_dim <= JAM_MAX_DIM)
     fail(JAM_E_FORMAT,
          "%s was written on a machine with the other order of bytes: write the packing as text there, which reads "
          "anywhere",
-         path);
+         name);
   uint64_t sum = 0;
   std::memcpy(&sum, all.data() + all.size() - 8, 8);
-  if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", path);
+  if (sum != checksum(all.data(), all.size() - 8)) fail(JAM_E_FORMAT, "%s is damaged: its checksum does not fit", name);
   const size_t room = all.size() - sizeof h - 8;
   const size_t pressures =
       (h.flags & flag_wall_pressure) != 0 && h.dim >= 2 && h.dim <= JAM_MAX_DIM ? walls_of(h) * sizeof(double) : 0;
@@ -163,7 +170,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
       room - static_cast<size_t>(h.beside) - pressures !=
           static_cast<size_t>(h.n) * (2 * static_cast<size_t>(h.dim) + 1) * sizeof(double) +
               static_cast<size_t>(h.redrawn) * sizeof(MkRedrawn))
-    fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", path, all.size(),
+    fail(JAM_E_FORMAT, "%s has the wrong size: %zu bytes for %lld spheres", name, all.size(),
          static_cast<long long>(h.n));
   Packing p;
   p.dim = h.dim;
@@ -187,11 +194,11 @@ Packing read_checkpoint(const char *path, std::string &beside) {
   take(at, p.wall_pressure, pressures / sizeof(double));
   check_dim(h.dim);
   reduce_cell(h.dim, h.cell);  // for its checks
-  if (!has_searchable_cell(h)) fail(JAM_E_FORMAT, "%s contains a cell that is far from reduced", path);
+  if (!has_searchable_cell(h)) fail(JAM_E_FORMAT, "%s contains a cell that is far from reduced", name);
   p.cell = Cell::from_triangle(h.dim, h.cell);
   if (h.flags >> container_at) {
     enclose(p, enclosure_of(h));
-    if (p.container.count() != static_cast<int>(walls_of(h))) fail(JAM_E_FORMAT, "%s has no such container", path);
+    if (p.container.count() != static_cast<int>(walls_of(h))) fail(JAM_E_FORMAT, "%s has no such container", name);
     refuse_outside(p, wrong_origin);
   }
   check_packing(p, JAM_E_FORMAT);
@@ -205,7 +212,7 @@ Packing read_checkpoint(const char *path, std::string &beside) {
            (!last || last->i < r.i || (last->i == r.i && last->j < r.j));
     last = &r;
   }
-  if (!good) fail(JAM_E_FORMAT, "%s contains values that no packing has", path);
+  if (!good) fail(JAM_E_FORMAT, "%s contains values that no packing has", name);
   return p;
 }
 

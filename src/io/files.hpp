@@ -75,6 +75,9 @@ void read_curve(const char *path, std::vector<double> &curve);
 
 // beside: bytes of the results and of the unfinished work of that packing (capi/results_archive.cpp).
 void write_checkpoint(const Packing &p, const std::string &beside, const char *path);
+// What such a file contains; of the name errors speak.
+std::string bytes_of_state(const Packing &p, const std::string &beside);
+Packing packing_of_state(const std::string &all, const char *name, std::string &beside);
 Packing read_checkpoint(const char *path, std::string &beside);
 
 }  // namespace jam::inside

@@ -1,5 +1,6 @@
 """The checker as a program: its files, what it reads and refuses, and what it prints."""
 import base64
+import gzip
 import math
 import os
 import random
@@ -55,6 +56,11 @@ class Program(InFolder):
         self.assertEqual(first.stdout, second.stdout)
         self.assertEqual(run(CHECKER, other, self.folder / "c.jamproof").stdout, first.stdout)
         self.assertEqual(other.read_bytes(), (self.folder / "c.jamproof").read_bytes())
+        packed = self.folder / "a.jamproof.gz"  # as libjam writes it under such a name
+        packed.write_bytes(gzip.compress(self.text.encode()))
+        self.assertEqual(run(CHECKER, packed).stdout, first.stdout)
+        packed.write_bytes(packed.read_bytes()[:-9])
+        self.assertEqual(run(CHECKER, packed).returncode, 2)
         lines = other.read_text(encoding="ascii").splitlines()
         bad = lines[-1].split()
         bad[2] = bad[2][:100] + ("A" if bad[2][100] != "A" else "B") + bad[2][101:]

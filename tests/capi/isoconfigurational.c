@@ -128,6 +128,48 @@ CASE(stopped_runs_are_kept_and_resume) {
   assert_int_equal(b.runs, RUNS + 3);
 }
 
+/* The packing has moved on since: the file has the runs as the handle has them, and the place where they began. */
+CASE(a_checkpoint_has_what_the_runs_began_from) {
+  static const double strain[D * D] = {0.5, 0, 0, 0, 0.5, 0, 0, 0, 0.5};
+  OWNED jam_system *whole = packing(), *cut = packing(), *moved = NULL, *strained = NULL, *scaled = NULL, *back = NULL;
+  jam_isoconf_options o = options();
+  jam_isoconf_report r;
+  static sums a, b;
+  double start[N * D];
+  memcpy(start, view_of(cut, JAM_VIEW_POSITIONS), sizeof start);
+  assert_int_equal(runs_of(whole, &o, NULL), JAM_OK);
+  get(whole, -1, &a);
+  o.runs = 6;
+  assert_int_equal(runs_of(cut, &o, NULL), JAM_OK);
+  run(cut, 20);
+  moved = from_checkpoint(cut);
+  o.runs = RUNS, o.resume = 1;
+  assert_int_equal(runs_of(moved, &o, &r), JAM_E_STATE);
+  assert_int_equal(jam_set_positions(moved, start, N * D), JAM_OK);
+  assert_int_equal(runs_of(moved, &o, &r), JAM_OK);
+  same_sums(moved, -1, &a);
+  /* Distances have the unit of the box of then. */
+  assert_int_equal(jam_copy(whole, &strained), JAM_OK);
+  assert_int_equal(jam_strain(strained, strain, D * D), JAM_OK);
+  same_sums(strained, -1, &a);
+  back = from_checkpoint(strained);
+  same_sums(back, -1, &a);
+  assert_int_equal(jam_set_positions(back, start, N * D), JAM_OK); /* in another cell */
+  assert_int_equal(runs_of(back, &o, &r), JAM_E_STATE);
+  /* Hard spheres of then overlap now. */
+  DEFAULTS(create, soft);
+  soft.n = N, soft.overlap = JAM_OVERLAP_ALLOW;
+  scaled = created_from(&soft, start, N * D, view_of(whole, JAM_VIEW_DIAMETERS), N);
+  DEFAULTS(monte_carlo, m);
+  m.step = 0.05, o.resume = 0;
+  assert_int_equal(jam_isoconf(scaled, &o, &m, instants, M, NULL, 0, NULL), JAM_OK);
+  get(scaled, -1, &b);
+  assert_int_equal(jam_scale_diameters(scaled, 1.5), JAM_OK);
+  jam_system *overlapping = from_checkpoint(scaled);
+  same_sums(overlapping, -1, &b);
+  jam_destroy(overlapping);
+}
+
 CASE(sums_are_those_of_whole_sets) {
   static double set[RUNS * N * D];
   static const int32_t kept[1] = {1};

@@ -113,7 +113,9 @@ void Isoconfigurational::continue_with(const Packing &p, const jam_isoconf_optio
       (!mc || (mc->alpha == own.alpha && mc->energy_scale == own.energy_scale && mc->energy_unit == own.energy_unit &&
                mc->temperature == own.temperature && (mc->step == own.step || mc->step == 0.0) &&
                mc->acceptance == own.acceptance && mc->swap_share == own.swap_share));
-  if (mark_of(p) != mark_) fail(JAM_E_STATE, "resume is 1 but the packing is not the one that the runs began from");
+  // A checkpoint of an earlier version may lack the packing that its runs began from.
+  if (mark_of(p) != mark_ || mark_of(packing_) != mark_ || p.cell.rows() != packing_.cell.rows())
+    fail(JAM_E_STATE, "resume is 1 but the packing is not the one that the runs began from");
   if (instants != plan_.instants || kept != kept_instants_ || o.clock != mine.clock || o.first_run != mine.first_run ||
       o.block != mine.block || o.density_ratio != mine.density_ratio || o.temperature != mine.temperature ||
       o.wave_number != mine.wave_number || o.overlap_length != mine.overlap_length || !same_dynamics)

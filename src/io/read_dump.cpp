@@ -1,6 +1,8 @@
 // Dumps of LAMMPS: dump atom and dump custom as text, with radius or diameter, one frame or several.
 #include <algorithm>
+#include <limits>
 
+#include "core/math.hpp"
 #include "io/read_helpers.hpp"
 
 namespace jam::inside {
@@ -119,32 +121,56 @@ DumpColumns read_columns(const LineReader &in, const Words &names) {
   return columns;
 }
 
+// How finely a file writes fractions of the edges: to as many decimals, or to as many digits, as its longest one has.
+class Fineness {
+ public:
+  void look_at(std::string_view word) {
+    word = word.substr(0, word.find_first_of("eEdD"));
+    const size_t point = std::min(word.find('.'), word.size()), first = word.find_first_of("123456789");
+    decimals_ = std::max(decimals_, static_cast<int>(word.size() - std::min(point + 1, word.size())));
+    if (first != std::string_view::npos)
+      digits_ = std::max(digits_, static_cast<int>(word.size() - first - (first < point && point < word.size())));
+  }
+  // Half a unit of the last digit of x, 0 < x < 1.
+  double half_unit(double x) const {
+    double leading = 1.0;
+    while (leading > x) leading /= 10.0;
+    return 0.5 * std::max(math::pow(10.0, -decimals_), leading * math::pow(10.0, 1 - digits_));
+  }
+
+ private:
+  int decimals_ = 0, digits_ = 0;
+};
+
 void read_atoms(LineReader &in, int64_t n, const Box &box, const DumpColumns &columns, FileContent &content) {
   Rows rows(in, false);
   Words words;
-  std::vector<double> position;
+  std::vector<double> position;  // fractions are measured from the corner of the box, other coordinates are not
   std::vector<int64_t> ids;
+  Fineness fineness;
   for (int64_t k = 0; k < n; ++k) {
     if (!rows.next(words)) ends_early(in, k, n);
     if (words.size() != columns.total)
       in.fail(JAM_E_FORMAT, "%zu columns, ITEM: ATOMS names %zu", words.size(), columns.total);
     std::array<double, 3> x{};
-    for (size_t c = 0; c < columns.count; ++c) x[c] = parse_number(in, words[columns.axis[c]]);
-    for (size_t c = 0; c < 3; ++c) {
-      const double scaled = x[0] * box.rows[c] + x[1] * box.rows[3 + c] + x[2] * box.rows[6 + c];
-      // z from the origin of the file, where it is 0 in a plane
-      position.push_back(!columns.scaled ? x[c] : c < 2 ? scaled : scaled + box.low[2]);
+    for (size_t c = 0; c < columns.count; ++c) {
+      x[c] = parse_number(in, words[columns.axis[c]]);
+      if (columns.scaled) fineness.look_at(words[columns.axis[c]]);
     }
+    for (size_t c = 0; c < 3; ++c)
+      position.push_back(columns.scaled ? x[0] * box.rows[c] + x[1] * box.rows[3 + c] + x[2] * box.rows[6 + c] : x[c]);
     content.diameter.push_back(columns.size.diameter(in, words));
     if (columns.has_id) ids.push_back(parse_count(in, words[columns.id], "the number of an atom"));
   }
-  const bool plane = columns.count == 2;
+  const double low = box.low[2], edge = box.rows[8], rounding = 4.0 * std::numeric_limits<double>::epsilon();
   content.knows_origin = true;
-  take_plane(position, plane ? -1.0 : box.low[2], plane ? 1.0 : box.low[2] + box.rows[8], content);
-  if (!columns.scaled)
-    measure_from_corner(&box.low[0], content);
-  else if (content.dim == 3)
-    for (size_t k = 2; k < content.position.size(); k += 3) content.position[k] -= box.low[2];
+  if (columns.count == 2)  // z is 0
+    take_plane(position, -1.0, 1.0, content);
+  else if (columns.scaled && -low > 0.0 && -low < edge)
+    take_plane(position, 0.0, edge, content, -low, (fineness.half_unit(-low / edge) + rounding) * edge);
+  else
+    take_plane(position, low, low + edge, content);
+  if (!columns.scaled) measure_from_corner(&box.low[0], content);
   if (!std::is_sorted(ids.begin(), ids.end())) {
     content.notes.say("the ids of the dump do not count up: spheres keep its order, ids are not kept");
     std::sort(ids.begin(), ids.end());

@@ -1,6 +1,7 @@
 #include "io/read_helpers.hpp"
 
-#include "core/call_scope.hpp"
+#include <cmath>
+
 #include "core/cell_reduction.hpp"
 
 namespace jam::inside {
@@ -162,10 +163,11 @@ void refuse_outside(const LineReader &in, int64_t line, double x) {
                in.path().c_str(), static_cast<long long>(line), x);
 }
 
-void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content) {
+void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content, double height,
+                double resolution) {
   content.dim = 3;
-  bool flat = low < 0.0 && high > 0.0;
-  for (size_t k = 2; k < positions.size(); k += 3) flat = flat && positions[k] == 0.0;
+  bool flat = low < height && high > height;
+  for (size_t k = 2; k < positions.size(); k += 3) flat = flat && std::fabs(positions[k] - height) <= resolution;
   if (!flat) {
     content.position = positions;
     return;

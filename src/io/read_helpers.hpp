@@ -2,7 +2,9 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <deque>
 
+#include "core/call_scope.hpp"
 #include "core/limits.hpp"
 #include "io/files.hpp"
 #include "io/text.hpp"
@@ -118,9 +120,11 @@ void take_rows(std::vector<double> rows, FileContent &content);  // the same, er
 // The cell of a file of LAMMPS, which has three rows also where the spheres lie in a plane.
 void take_cell_of_lammps(const LineReader &in, const std::array<double, 9> &cell, FileContent &content);
 
-// Whether all spheres lie in the plane z = 0 and the box reaches to both sides of it, as LAMMPS has d = 2; then their
-// third coordinates go, and the file's dimension is 2. positions: (n, 3).
-void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content);
+// Whether all spheres lie in one plane, that of LAMMPS's z = 0, and the box reaches to both sides of it, as LAMMPS has
+// d = 2; then their third coordinates go, and the file's dimension is 2. positions: (n, 3), which have the plane at
+// `height` to `resolution`.
+void take_plane(const std::vector<double> &positions, double low, double high, FileContent &content,
+                double height = 0.0, double resolution = 0.0);
 
 FileContent read_plain(LineReader &in, const ReadOptions &options);
 FileContent read_table(LineReader &in, const ReadOptions &options);
@@ -132,7 +136,8 @@ FileContent read_mercury(LineReader &in, const ReadOptions &options);
 // The frame that was requested. read_one(content, k) reads frame k, false where the file ends before it.
 template <class ReadOne>
 FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
-  std::vector<FileContent> kept;  // the last frames, as many as a negative number reaches back
+  std::deque<FileContent> kept;  // the last frames, as many as a negative number reaches back
+  double bytes = 0.0;            // of their numbers
   int64_t count = 0;
   std::string hint;  // which frame could be read instead
   const size_t most = frame < 0 ? static_cast<size_t>(-(frame + 1)) + 1 : 1;
@@ -145,8 +150,13 @@ FileContent choose_frame(LineReader &in, int64_t frame, ReadOne &&read_one) {
       jam::inside::fail(e.code(), "%s%s", e.what(), hint.c_str());
     }
     if (!content.diameter.empty()) hint = "; frame=" + std::to_string(count) + " can be read";
-    if (kept.size() == most) kept.erase(kept.begin());
+    const auto bytes_of = [](const FileContent &one) {
+      return static_cast<double>(sizeof one + sizeof(double) * (one.position.capacity() + one.diameter.capacity()));
+    };
+    if (kept.size() == most) bytes -= bytes_of(kept.front()), kept.pop_front();
+    bytes += bytes_of(content);
     kept.push_back(std::move(content));
+    CallScope::need_memory(bytes, ("the frames of " + in.path()).c_str());
     if (count == frame) {
       ++count;
       break;

@@ -148,6 +148,34 @@ CASE(tilted_dumps) {
   assert_true(fabs(x[0] - at[0]) < 1e-15 && fabs(x[1] - at[1]) < 1e-15);
 }
 
+/* Disks, as LAMMPS dumps them: no column of z, or one of z = 0 to the digits of the others. */
+CASE(dumps_of_disks) {
+#define DISKS(low, high, columns, z)                                                                \
+  "ITEM: TIMESTEP\n5\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS pp pp pp\n0 8\n0 8\n" low " " high \
+  "\nITEM: ATOMS radius " columns "\n0.5 0.125 0.25" z "\n0.25 0.625 0.5" z "\n"
+  static const double at[4] = {1, 2, 5, 4}, widths[2] = {1, 0.5};
+  static const char *const texts[] = {
+      DISKS("-0.5", "0.5", "xs ys", ""),
+      DISKS("-0.5", "0.5", "xsu ysu", ""),
+      DISKS("-0.5", "0.5", "xs ys zs", " 0.5"),
+      DISKS("-1", "2", "xs ys zs", " 0.333333"),
+      DISKS("-0.3", "0.4", "xs ys zs", " 0.428571"),
+  };
+  for (size_t k = 0; k < sizeof texts / sizeof *texts; ++k) expect(read_text(texts[k]), 2, 2, at, widths);
+  /* a height that the digits tell from 0, and a box beside the plane */
+  jam_system *sys = read_text(DISKS("-1", "2", "xs ys zs", " 0.3334"));
+  assert_int_equal(info_of(sys).dim, 3);
+  jam_destroy(sys);
+  sys = read_text(DISKS("0", "1", "xs ys zs", " 0.5"));
+  assert_int_equal(info_of(sys).dim, 3);
+  jam_destroy(sys);
+  /* fractions are measured from the corner, wherever that is */
+  sys = read_text(DISKS("10000", "10008", "xs ys zs", " 0.12345678901234567"));
+  assert_true(view_of(sys, JAM_VIEW_POSITIONS)[2] == 8 * 0.12345678901234567);
+  jam_destroy(sys);
+#undef DISKS
+}
+
 CASE(dumps_that_cannot_be_read) {
 #define NAMES "ITEM: ATOMS id radius x y z\n"
   expect_refused(DUMP "ITEM: BOX BOUNDS pp pp\n0 1\n0 1\n0 1\n" NAMES, JAM_E_FORMAT, "2 boundaries instead of three");

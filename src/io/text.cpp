@@ -41,8 +41,9 @@ void LineReader::fail(jam_status code, const char *format, ...) const {
 }
 
 bool LineReader::refill() {
-  begin_ = 0;
-  end_ = file_.read_unpacked(buffer_.data(), buffer_.size());
+  begin_ = end_ = 0;
+  for (size_t got = 1; got > 0 && end_ < buffer_.size(); end_ += got)
+    got = file_.read_unpacked(buffer_.data() + end_, buffer_.size() - end_);
   return end_ > 0;
 }
 

@@ -13,7 +13,7 @@ namespace jam::inside {
 class LineReader {
  public:
   explicit LineReader(const char *path);
-  // The first 64 KiB, or less: which decide the format. Before the first next().
+  // The first 64 KiB, less of a shorter file: they decide the format. Before the first next().
   std::string_view head() const { return {buffer_.data() + begin_, end_ - begin_}; }
   // The next line without its end in `line`; false at the end of the file. A last line without an end is refused, as
   // the file may be cut inside its last number, unless the caller tests cut_short() itself.

@@ -232,6 +232,7 @@ CASE(curves_are_read_from_files) {
   /* a row that lost its first number, and no heading */
   SAYS(parsed("fine 0\n1 40\n", NULL, 0, &needed), JAM_E_FORMAT, "line 1");
 }
+  SAYS(parsed("size passing\n0.5 0\n,40\n2 100\n", NULL, 0, &needed), JAM_E_FORMAT, "line 3: column 1 is empty");
 
 CASE(fluids_do_not_begin_to_grow_beyond_their_reach) {
   DEFAULTS(compress, o);

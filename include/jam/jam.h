@@ -51,7 +51,7 @@
  *   failed, the state is as before the call. For every status but 0 jam_last_error() gives the reason in one sentence.
  *   A status < 0 writes no output but `needed` with JAM_E_BUFFER.
  * - Calls that work on a system or make one may return JAM_CANCELLED; calls with a wall_time may return JAM_LIMIT. A
- *   setter or a const call that returns either has changed nothing and written no output.
+ *   setter or a const call that returns either has changed nothing and written no output, but a part to a pipe.
  * - Comments end in tags: @shape of arrays; @enum, @bool and @optional of arguments; @errors besides those of any call.
  * - Errors of any call: JAM_E_NULL, JAM_E_STRUCT_SIZE, JAM_E_ARGUMENT (a value or a length is out of its range),
  *   JAM_E_NONFINITE, JAM_E_BUFFER, JAM_E_MEMORY, JAM_E_BUSY. Comments name the others.

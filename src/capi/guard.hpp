@@ -80,8 +80,8 @@ class Reading {
 };
 
 // The work of a short call. Most take no time, some take hours for large systems: a cancel and the callback of the
-// handle end them too. f throws Cancelled before it has changed or written anything. A call that the callback makes
-// does not call it again.
+// handle end them too. f throws Cancelled before it has changed or written anything, but to a pipe or a device. A call
+// that the callback makes does not call it again.
 template <class F>
 Answer run_short(const jam_system *sys, F &&f) {
   const bool inside = CallScope::inside(sys->monitor);
@@ -92,7 +92,9 @@ Answer run_short(const jam_system *sys, F &&f) {
     return f();
   } catch (const Cancelled &) {
     if (!inside) monitor.end_beside(sys->monitor);
-    return {JAM_CANCELLED, "jam_cancel or the callback stopped the call: nothing was changed or written"};
+    return {JAM_CANCELLED, std::string("jam_cancel or the callback stopped the call: ") +
+                               (scope.part_written() ? "the pipe or device has a part of the file, nothing was changed"
+                                                     : "nothing was changed or written")};
   }
 }
 

@@ -166,14 +166,15 @@ jam_status jam_read_as(const char *path, const char *layout, const jam_create_op
     const ReadOptions options{full.dim, full.box, full.frame, {full.container, full.walls}, layout_of(layout)};
     return make_system(full, callback, user, out, [&](jam_system &sys) {
       const FileContent file = read_file(path, options);
-      settle_options(path, file, full);
+      const std::string shown = shown_path(path);
+      settle_options(shown.c_str(), file, full);
       sys.notes = file.notes;
       try {
         sys.packing = make_packing(full, file.position.data(), file.position.size(), file.diameter.data(),
                                    file.diameter.size(), file.cell.empty() ? nullptr : file.cell.data(), &sys.notes);
         sys.packing.given.take(file.given());
       } catch (const Error &e) {
-        refuse(path, e, file.notes);
+        refuse(shown.c_str(), e, file.notes);
       }
     });
   });

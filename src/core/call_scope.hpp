@@ -35,6 +35,11 @@ class CallScope {
   static void look() {
     ask([](Monitor &monitor) { return monitor.look(); });
   }
+  // A pipe or device has taken a part of a file that will not be whole: the call cannot say that nothing was written.
+  static void note_part_written() {
+    if (current()) current()->part_written_ = true;
+  }
+  bool part_written() const { return part_written_; }
   // A call on this handle runs on this thread: the one that asks is made by its callback.
   static bool inside(const Monitor &handle) {
     for (const CallScope *scope = current(); scope; scope = scope->before_)
@@ -77,7 +82,7 @@ class CallScope {
   double memory_limit_;
   Monitor *monitor_;
   std::mutex *quiet_;
-  bool leaves_;
+  bool leaves_, part_written_ = false;
   CallScope *before_;
 };
 

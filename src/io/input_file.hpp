@@ -17,7 +17,7 @@ class InputFile {
   ~InputFile();
   InputFile(const InputFile &) = delete;
   InputFile &operator=(const InputFile &) = delete;
-  const std::string &path() const { return path_; }
+  const std::string &path() const { return path_; }  // as texts show it
   // Up to `size` bytes as they are in the file; 0 at its end.
   size_t read(char *to, size_t size);
   // The same of what is packed where the file is one of gzip's, as its first bytes show. Use one of both.

@@ -10,6 +10,7 @@
 #include "core/rng.hpp"
 #include "io/input_file.hpp"
 #include "io/platform.hpp"
+#include "io/text.hpp"
 
 namespace jam::inside {
 namespace {
@@ -52,10 +53,10 @@ void OutputFile::fail_errno(const char *what) const {
   fail(JAM_E_IO, "cannot %s %s: %s", what, path_.c_str(), std::generic_category().message(code).c_str());
 }
 
-OutputFile::OutputFile(const char *path) : path_(path) {
+OutputFile::OutputFile(const char *path) : path_(shown_path(path)) {
   text_.reserve(platform::chunk + 1024);
   if (path_.size() > 3 && path_.compare(path_.size() - 3, 3, ".gz") == 0) gzip_ = std::make_unique<Packer>(path_);
-  const platform::Target target = platform::follow_links(path_);
+  const platform::Target target = platform::follow_links(path);
   target_ = target.file;
   const platform::Kind there = platform::kind_of(path);
   const bool exists = there != platform::Kind::none;
@@ -86,6 +87,7 @@ OutputFile::OutputFile(const char *path) : path_(path) {
 
 OutputFile::~OutputFile() {
   if (fd_ >= 0) platform::close(fd_);
+  if (fd_ >= 0 && temporary_.empty() && begun_) CallScope::note_part_written();
   if (!temporary_.empty()) platform::remove(temporary_);
 }
 
@@ -99,6 +101,7 @@ void OutputFile::put(const char *from, size_t left) {
     const std::ptrdiff_t done = platform::write(fd_, from, in_place ? std::min(left, platform::at_once) : left);
     if (done < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (done < 0) fail_errno("write");
+    begun_ = begun_ || done > 0;
     from += done;
     left -= static_cast<size_t>(done);
   }

@@ -26,10 +26,11 @@ class OutputFile {
   void flush(bool finish);
   void put(const char *from, size_t left);
   [[noreturn]] void fail_errno(const char *what) const;
-  std::string path_, target_, temporary_;
+  std::string path_, target_, temporary_;  // path_: as texts show it
   std::string text_;
   std::unique_ptr<Packer> gzip_;  // NULL: the text is written as it is
   int fd_ = -1;
+  bool begun_ = false;  // bytes were written
 };
 
 // Files that are being written, beside their target under a name of their own.

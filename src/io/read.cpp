@@ -77,7 +77,8 @@ GivenDigits FileContent::given() const {
 
 FileContent read_file(const char *path, const ReadOptions &options) {
   LineReader in(path);
-  if (in.head().find_first_not_of(" \t\r\n") == std::string_view::npos) fail(JAM_E_FORMAT, "%s is empty", path);
+  const char *const shown_as = in.path().c_str();
+  if (in.head().find_first_not_of(" \t\r\n") == std::string_view::npos) fail(JAM_E_FORMAT, "%s is empty", shown_as);
   const std::string ending = file_ending(path);
   const Head head(in.head(), ending);
   const KnownFile *const known = recognise(head);
@@ -85,19 +86,19 @@ FileContent read_file(const char *path, const ReadOptions &options) {
     const std::string_view line = head.lines[std::min(head.first, head.lines.size() - 1)];
     fail(JAM_E_FORMAT,
          "%s line %zu: '%s' begins no file that is read: plain text, extended XYZ, data and dumps of LAMMPS, tables of "
-         "columns x y z radius; jam.files.read_ase of Python reads more",
-         path, head.first + 1, shown(line).c_str());
+         "columns x y z radius, data of MercuryDPM; jam.files.read_ase of Python reads more",
+         shown_as, head.first + 1, shown(line).c_str());
   }
-  if (known->way_out) fail(JAM_E_FORMAT, "%s is %s: %s", path, known->name, known->way_out);
+  if (known->way_out) fail(JAM_E_FORMAT, "%s is %s: %s", shown_as, known->name, known->way_out);
   const Format &format = format_of_name(known->name);
   if (!format.frames && options.frame != -1 && options.frame != 0)
-    fail(JAM_E_ARGUMENT, "%s: frame is %lld, but %s contains one packing", path, static_cast<long long>(options.frame),
-         known->name);
+    fail(JAM_E_ARGUMENT, "%s: frame is %lld, but %s contains one packing", shown_as,
+         static_cast<long long>(options.frame), known->name);
   FileContent content = format.read(in, options);
   if (!options.layout.columns.empty() && format.read != read_table)
-    fail(JAM_E_ARGUMENT, "%s is %s: the option columns is for tables", path, format.name);
-  take_layout(path, options, content);
-  assign_walls(path, options.enclosure, content);
+    fail(JAM_E_ARGUMENT, "%s is %s: the option columns is for tables", shown_as, format.name);
+  take_layout(shown_as, options, content);
+  assign_walls(shown_as, options.enclosure, content);
   note_wrapped(content, options.box);
   return content;
 }

@@ -145,6 +145,15 @@ std::string shown(std::string_view word) {
   return out;
 }
 
+std::string shown_path(const std::string &path) {
+  constexpr size_t begin = 40, end = 120;
+  if (path.size() <= begin + end) return path;
+  size_t cut = begin, behind = path.size() - end;
+  while (cut > 0 && (path[cut] & 0xc0) == 0x80) --cut;
+  while (behind < path.size() && (path[behind] & 0xc0) == 0x80) ++behind;
+  return path.substr(0, cut) + "..." + path.substr(behind);
+}
+
 size_t character_length(std::string_view text) {
   const auto byte = [&](size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
   const unsigned first = byte(0);
@@ -218,7 +227,7 @@ void InputFile::fail_errno(const char *what) const {
 }
 
 // Opening a pipe would wait for its writer, deaf to all: so it is opened at once, and read() waits.
-InputFile::InputFile(const char *path) : path_(path) {
+InputFile::InputFile(const char *path) : path_(shown_path(path)) {
   if ((fd_ = platform::open_input(path)) < 0) fail_errno("open");
 }
 

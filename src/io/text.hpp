@@ -55,6 +55,10 @@ std::string lower(std::string_view word);
 // A word of a file, cut and cleaned for an error text.
 std::string shown(std::string_view word);
 
+// A path for an error text, which has room for 400 bytes: the middle of a long one is left out, so that the reason
+// stays.
+std::string shown_path(const std::string &path);
+
 // Bytes of the character of UTF-8 at the beginning of text (RFC 3629); 0 where none begins.
 size_t character_length(std::string_view text);
 

@@ -161,4 +161,29 @@ CASE(missing_files_are_refused) {
   assert_null(sys);
 }
 
+/* The reason stands behind the path, however long that is; of the path its end is shown. */
+CASE(long_paths_do_not_hide_the_reason) {
+  OWNED jam_system *sys = some_packing(3, 8, 1.0, 1.0);
+  jam_system *back = NULL;
+  static const char nan_file[] = "1\n" LATTICE "Properties=pos:R:3:radius:R:1\n0 0 nan 0.1\n";
+  static const char overlap[] = "2\n2\n0.3\n0.1 0.2\n0.2 0.2\n";
+  char folder[600], path[700];
+  size_t length = (size_t)snprintf(folder, sizeof folder, "%s", scratch);
+  for (int depth = 0; depth < 4; ++depth) {
+    length += (size_t)snprintf(folder + length, sizeof folder - length, "/%0100d", depth);
+    assert_int_equal(mkdir(folder, 0700), 0);
+  }
+  snprintf(path, sizeof path, "%s/last.xyz", folder);
+  SAYS(jam_read(path, NULL, NULL, NULL, &back), JAM_E_IO, strerror(ENOENT));
+  put_bytes(path, nan_file, sizeof nan_file - 1);
+  SAYS(jam_read(path, NULL, NULL, NULL, &back), JAM_E_NONFINITE, "last.xyz line 3: 'nan' is not finite");
+  SAYS(jam_read_checkpoint(path, NULL, NULL, &back), JAM_E_FORMAT, "last.xyz is no checkpoint of libjam");
+  put_bytes(path, overlap, sizeof overlap - 1);
+  SAYS(jam_read(path, NULL, NULL, NULL, &back), JAM_E_OVERLAP, "spheres 0 and 1");
+  snprintf(path, sizeof path, "%s/none/last.xyz", folder);
+  SAYS(jam_write(sys, path, JAM_FORMAT_XYZ), JAM_E_IO, strerror(ENOENT));
+  assert_non_null(strstr(jam_last_error(), "last.xyz"));
+  assert_null(back);
+}
+
 FIXTURE(make_scratch, remove_scratch)

@@ -16,15 +16,16 @@ static void ring(suseconds_t every) {
   setitimer(ITIMER_REAL, &timer, NULL);
 }
 
-/* Feeds a file into a pipe, a few bytes at a time; several times a read is amid one of zlib's blocks. */
-static pid_t feed(const char *file, const char *fifo) {
+/* Feeds a file into a pipe: its first bytes alone, then some thousands at a time; several times a read is amid one of
+ * zlib's blocks. */
+static pid_t feed(const char *file, const char *fifo, size_t first) {
   const pid_t child = fork();
   size_t size;
   if (child) return child;
   char *bytes = get_bytes(file, &size);
   int fd = open(fifo, O_WRONLY);
-  for (size_t at = 0; at < size; at += 7000) {
-    if (write(fd, bytes + at, size - at < 7000 ? size - at : 7000) < 0) _exit(1);
+  for (size_t at = 0, part = first; at < size; at += part, part = 7000) {
+    if (write(fd, bytes + at, size - at < part ? size - at : part) < 0) _exit(1);
     usleep(3000);
   }
   _exit(0);
@@ -32,16 +33,16 @@ static pid_t feed(const char *file, const char *fifo) {
 
 CASE(signals_do_not_end_a_read) {
   jam_system *sys = some_packing(3, 3000, 1.4, 1.0), *back = NULL;
-  const char *names[] = {"plain.dat", "packed.xyz.gz", "state.chk"};
+  const char *names[] = {"plain.dat", "packed.xyz.gz", "plain.xyz", "state.chk", "state.chk.gz"};
   char fifo[256];
   strcpy(fifo, in_scratch("fifo"));
   assert_int_equal(mkfifo(fifo, 0600), 0);
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 5; ++k) {
     const char *name = in_scratch(names[k]);
-    assert_int_equal(k == 2 ? jam_write_checkpoint(sys, name) : jam_write(sys, name, 0), JAM_OK);
-    pid_t child = feed(name, fifo);
+    assert_int_equal(k > 2 ? jam_write_checkpoint(sys, name) : jam_write(sys, name, 0), JAM_OK);
+    pid_t child = feed(name, fifo, 5); /* "3000\n" of plain.xyz: one line does not show a format */
     ring(1000);
-    assert_int_equal(k == 2 ? jam_read_checkpoint(fifo, NULL, NULL, &back) : jam_read(fifo, NULL, NULL, NULL, &back),
+    assert_int_equal(k > 2 ? jam_read_checkpoint(fifo, NULL, NULL, &back) : jam_read(fifo, NULL, NULL, NULL, &back),
                      JAM_OK);
     ring(0);
     assert_same_bits(sys, back);
@@ -89,6 +90,14 @@ CASE(reading_keeps_to_its_limits) {
   assert_int_equal(jam_create_options_init(&o, sizeof o), JAM_OK);
   o.memory_limit = 1e6;
   SAYS(jam_read(path, &o, NULL, NULL, &sys), JAM_E_MEMORY, "much.dat.gz");
+
+  /* A negative frame keeps all those behind it. */
+  pack(
+      "for k in $(seq 100); do printf '4000\nLattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\n'; "
+      "yes '0 0 0 1e-9' | head -n 4000; done",
+      path, 0);
+  o.frame = -100;
+  SAYS(jam_read(path, &o, NULL, NULL, &sys), JAM_E_MEMORY, "the frames of ");
   assert_null(sys);
 }
 
@@ -97,8 +106,9 @@ CASE(gzip_members) {
   jam_system *sys = NULL;
   const char *path = in_scratch("members.dat.gz");
   FILE *more;
-  pack("printf '3\\n1\\n0.1\\n0.25 0.'", path, 0);
-  pack("printf '5 0.75\\n'", path, 1);
+  pack("printf '1\\n'", path, 0); /* this line alone is no packing */
+  pack("printf 'Lattice=\"1 0 0 0 1 0 0 0 1\" Properties=pos:R:3:radius:R:1\\n0.25 0.'", path, 1);
+  pack("printf '5 0.75 0.1\\n'", path, 1);
   assert_int_equal(jam_read(path, NULL, NULL, NULL, &sys), JAM_OK);
   jam_destroy(sys);
   sys = NULL;
@@ -133,6 +143,24 @@ CASE(open_files_are_appended_to) {
   free(text), free(packing);
   close(fd);
   assert_int_equal(jam_write(sys, names[0], JAM_FORMAT_PLAIN), JAM_E_IO); /* closed */
+}
+
+/* A file appears whole or not at all. What a pipe has taken, no call takes back: it is told. */
+CASE(stopped_writes_say_what_a_pipe_has_taken) {
+  OWNED jam_system *sys = some_packing(3, 20000, 1.0, 1.0);
+  char fifo[256], part[4096] = {0};
+  strcpy(fifo, in_scratch("taken"));
+  assert_int_equal(mkfifo(fifo, 0600), 0);
+  int ends = open(fifo, O_RDWR | O_NONBLOCK);
+  assert_int_equal(jam_set_progress(sys, stop_at_once, NULL), JAM_OK);
+  while (write(ends, part, sizeof part) > 0) {
+  }
+  SAYS(jam_write(sys, fifo, JAM_FORMAT_XYZ), JAM_CANCELLED, "nothing was changed or written"); /* it was full */
+  while (read(ends, part, sizeof part) > 0) {
+  }
+  SAYS(jam_write(sys, fifo, JAM_FORMAT_XYZ), JAM_CANCELLED, "has a part of the file");
+  assert_null(strstr(jam_last_error(), "nothing was changed or written"));
+  close(ends);
 }
 
 FIXTURE(make_scratch, remove_scratch)

@@ -480,7 +480,7 @@ JAM_API jam_status jam_set_memory_limit(jam_system *sys, double bytes);
 /* File formats. A further ending .gz compresses the file. PLAIN: line 1: d. Line 2: N. Line 3: the diameter, or the
  * word `diameters`; then, when it is not 1, the box as `box <L>`. Then one line per sphere: position, and diameter if
  * line 3 is `diameters`, with 17 digits. XYZ: Lattice, dim, Properties=id:I:1:pos:R:d:radius:R:1 and, after a crunch,
- * contacts:I:1. VTP: points with diameter, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other). */
+ * contacts:I:1. VTP: points with diameter, cell, and after a crunch contacts, kind (0 rattler, 1 buckler, 2 other). */
 typedef enum jam_format {
   JAM_FORMAT_AUTO = 0, /* .xyz, .extxyz: XYZ; .data, .lmp: LAMMPS; .vtp: VTP; .dat, .txt, none: PLAIN; others refused */
   JAM_FORMAT_PLAIN = 1,  /* text, cubes without walls only */
@@ -490,11 +490,11 @@ typedef enum jam_format {
 } jam_format;
 /* Table of file formats as text, one line per format, fields separated by tabs: content (packings, contacts, images);
  * number in jam_format or jam_contact_format, or 0; word for options; name; file endings separated by blanks, or a
- * minus sign; largest dimension; which of spheres, walls, cells and non_additivity it stores; read, write or both. */
+ * minus sign; largest dimension; which of spheres walls cells non_additivity density it stores; read, write or both. */
 JAM_API const char *jam_formats(void);
-/* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, or a table of columns. The content decides the
- * format. For a file of another format the error names it and what to do. o gives overlap policy, seed, model and
- * frame; also box, dim, container and walls if the file does not. A line that does not fit the format is an error.
+/* Reads plain text, extended XYZ, LAMMPS data and dumps with diameters, data of MercuryDPM, or a table of columns. The
+ * content decides the format. For another format the error names it and what to do. o gives overlap policy, seed, model
+ * and frame; also box, dim, container and walls if the file does not. A line that does not fit the format is an error.
  * jam_notes lists what was not kept. Spheres keep the order of the file; LAMMPS data are sorted by id. A last line
  * without newline is refused if its last number may have lost digits. callback, user: as in jam_start. @errors IO,
  * FORMAT (line named), UNSUPPORTED (a box that is not periodic), DIMENSION, OVERLAP, UNPLACEABLE */

@@ -28,7 +28,6 @@ struct Layout {
   std::vector<double> cell;          // sides or (dim, dim) components; empty: not said
   std::vector<double> origin;        // where the corner of the cell is in the file; empty: not said
   std::vector<std::string> columns;  // of a table, by name; empty: not said
-  bool any() const { return !cell.empty() || !origin.empty() || !columns.empty(); }
 };
 // From the text of jam_read_as. JAM_E_ARGUMENT names the word that does not fit.
 Layout layout_of(const std::string &text);
@@ -75,9 +74,9 @@ void read_curve(const char *path, std::vector<double> &curve);
 
 // beside: bytes of the results and of the unfinished work of that packing (capi/results_archive.cpp).
 void write_checkpoint(const Packing &p, const std::string &beside, const char *path);
+Packing read_checkpoint(const char *path, std::string &beside);
 // What such a file contains; of the name errors speak.
 std::string bytes_of_state(const Packing &p, const std::string &beside);
 Packing packing_of_state(const std::string &all, const char *name, std::string &beside);
-Packing read_checkpoint(const char *path, std::string &beside);
 
 }  // namespace jam::inside

@@ -1,5 +1,7 @@
 #include <zlib.h>
 
+#include <algorithm>
+#include <limits>
 #include <new>
 
 #include "core/error.hpp"
@@ -48,7 +50,9 @@ Unpacker::Done Unpacker::unpack(const char *from, size_t size, char *to, size_t 
 
 struct Packer::Stream {
   z_stream z{};
-  int flush = Z_NO_FLUSH;
+  const char *rest = nullptr;  // text that zlib has not been given yet: it counts in 32 bits
+  size_t left = 0;
+  bool finish = false;
 };
 
 Packer::Packer(const std::string &) : stream_(std::make_unique<Stream>()), packed_(platform::chunk) {
@@ -60,18 +64,23 @@ Packer::Packer(const std::string &) : stream_(std::make_unique<Stream>()), packe
 Packer::~Packer() { ::deflateEnd(&stream_->z); }
 
 void Packer::begin(const std::string &text, bool finish) {
-  z_stream &s = stream_->z;
-  s.next_in = reinterpret_cast<Bytef *>(const_cast<char *>(text.data()));
-  s.avail_in = static_cast<uInt>(text.size());
-  stream_->flush = finish ? Z_FINISH : Z_NO_FLUSH;
+  stream_->rest = text.data();
+  stream_->left = text.size();
+  stream_->finish = finish;
 }
 
 size_t Packer::next(bool &more) {
   z_stream &s = stream_->z;
+  if (s.avail_in == 0) {
+    s.next_in = reinterpret_cast<Bytef *>(const_cast<char *>(stream_->rest));
+    s.avail_in = static_cast<uInt>(std::min<size_t>(stream_->left, std::numeric_limits<uInt>::max()));
+    stream_->rest += s.avail_in;
+    stream_->left -= s.avail_in;
+  }
   s.next_out = packed_.data();
   s.avail_out = static_cast<uInt>(packed_.size());
-  ::deflate(&s, stream_->flush);
-  more = s.avail_out == 0;
+  ::deflate(&s, stream_->finish && stream_->left == 0 ? Z_FINISH : Z_NO_FLUSH);
+  more = s.avail_out == 0 || stream_->left > 0;
   return packed_.size() - s.avail_out;
 }
 

@@ -1,5 +1,6 @@
 #include "core/limits.hpp"
 #include "io/formats.hpp"
+#include "io/platform.hpp"
 #include "io/vtp.hpp"
 
 namespace jam::inside {
@@ -134,6 +135,8 @@ void write_points(const Packing &p, const Beside &beside, OutputFile &file) {
     std::vector<double> edges;
     for (int c = 0; c < p.dim; ++c) edges.push_back(p.cell.edge(c));
     spheres.add_field_data("edges", edges);
+  } else {
+    spheres.add_field_data("cell", p.cell.rows());
   }
   spheres.write(file);
 }
@@ -173,8 +176,7 @@ void write_lammps(const Packing &p, const Beside &beside, OutputFile &file) {
 }
 
 std::string file_ending(const char *path) {
-  std::string name(path);
-  name = name.substr(name.find_last_of('/') + 1);
+  std::string name = platform::name_of(path);
   if (name.size() > 3 && name.compare(name.size() - 3, 3, ".gz") == 0) name.resize(name.size() - 3);
   const size_t dot = name.find_last_of('.');
   return dot == std::string::npos || dot == 0 ? "" : name.substr(dot + 1);

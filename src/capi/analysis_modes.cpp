@@ -51,12 +51,11 @@ jam_status jam_hessian(const jam_system *sys, const jam_hessian_options *h, int3
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const BlockMatrix h_blocks = make_hessian(g, contact_weights(g, diameter_mean(sys->packing), options));
     const size_t entries = csr_entries(h_blocks);
-    if (needed) *needed = entries;
-    if (!needed && !row_start && !column && !value) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    check_output(row_start, row_start_len, h_blocks.rows() + 1, "row_start");
-    check_output(column, column_len, entries, "column");
-    check_output(value, value_len, entries, "value");
-    if (!row_start && !column && !value) return empty_network(sys) ? JAM_NOT_JAMMED : JAM_OK;
+    if (!outputs_wanted(entries, needed,
+                        {{row_start, row_start_len, h_blocks.rows() + 1, "row_start"},
+                         {column, column_len, entries, "column"},
+                         {value, value_len, entries, "value"}}))
+      return empty_network(sys) ? JAM_NOT_JAMMED : JAM_OK;
     const CsrMatrix csr = to_csr(h_blocks);
     put_output(csr.start, row_start, csr.start.size());
     put_output(csr.column, column, csr.column.size());
@@ -76,13 +75,10 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     check_modes_options(full, g);
     const size_t n = g.unknowns(), internal = n - std::min<size_t>(n, static_cast<size_t>(g.symmetries()));
     const size_t m = full.which == JAM_MODES_ALL ? n : std::min<size_t>(internal, static_cast<size_t>(full.count));
-    if (needed) *needed = m;
     const Table<JAM_MODE_COLUMNS> made(columns, table, table_len);
-    if (!needed && !table && !vector) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    made.check_room(m);
-    check_output(vector, vector_len, m * n, "vector");
+    const bool wanted = outputs_wanted(m, needed, {made.output(m), {vector, vector_len, m * n, "vector"}});
     if (m == 0) return JAM_NOT_JAMMED;
-    if (!table && !vector) return JAM_OK;
+    if (!wanted) return JAM_OK;
     Modes modes;
     const jam_status status =
         find_modes(g, contact_weights(g, diameter_mean(sys->packing), options), full, sys->monitor, modes);
@@ -119,14 +115,11 @@ jam_status jam_bloch_modes(jam_system *sys, const jam_hessian_options *h, const 
     const RigidityMatrix g = make_rigidity_matrix(p, sys->contacts);
     const size_t n = g.unknowns();
     const Table<JAM_MODE_COLUMNS> made(columns, table, table_len);
-    if (!rows && !table && !vector) fail(JAM_E_NULL, "rows is NULL and there is no output array");
-    if (rows) *rows = n;
-    made.check_room(n);
-    check_output(vector, vector_len, 2 * n * n, "vector");
+    const bool wanted = outputs_wanted(n, rows, {made.output(n), {vector, vector_len, 2 * n * n, "vector"}});
     if (n == 0) return JAM_NOT_JAMMED;
     const CellsBack back = cells_back(p, sys->contacts);
     need_memory_for_bloch(g, back, wave);  // also of who asks for the size, before arrays are made for it
-    if (!table && !vector) return JAM_OK;
+    if (!wanted) return JAM_OK;
     const Modes modes = bloch_modes(g, contact_weights(g, diameter_mean(p), options), back, wave, true);
     put_output(modes.vector, vector, 2 * n * n);
     made.give(n, [&](size_t k, auto &row) {
@@ -145,12 +138,9 @@ jam_status jam_floppy_modes(jam_system *sys, const int64_t *contact, size_t cont
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const std::vector<size_t> chosen = chosen_contacts(contact, contact_len, g.contacts());
     const size_t m = chosen.size(), n = g.unknowns();
-    if (!rows && !made && !vector) fail(JAM_E_NULL, "rows is NULL and there is no output array");
-    if (rows) *rows = m;
-    made.check_room(m);
-    check_output(vector, vector_len, m * n, "vector");
+    const bool wanted = outputs_wanted(m, rows, {made.output(m), {vector, vector_len, m * n, "vector"}});
     if (g.contacts() == 0) return JAM_NOT_JAMMED;
-    if (!made && !vector) return JAM_OK;
+    if (!wanted) return JAM_OK;
     std::vector<double> fields;
     const FloppyModes f = floppy_modes(sys->packing, sys->contacts, g, chosen, vector ? &fields : nullptr);
     put_output(fields, vector, m * n);

@@ -107,12 +107,10 @@ jam_status jam_elastic_tensor(jam_system *sys, const jam_hessian_options *h, dou
     need_network(sys);
     refuse_own_images(unlisted_own_images(sys->packing, sys->contacts), "an elastic tensor");
     const size_t d = static_cast<size_t>(sys->packing.dim), count = d * d * d * d;
-    if (needed) *needed = count;
-    if (!needed && !affine && !relaxed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    check_output(affine, affine_len, count, "affine");
-    check_output(relaxed, relaxed_len, count, "relaxed");
+    const bool wanted = outputs_wanted(
+        count, needed, {{affine, affine_len, count, "affine"}, {relaxed, relaxed_len, count, "relaxed"}});
     if (empty_network(sys)) return JAM_NOT_JAMMED;
-    if (!affine && !relaxed) return JAM_OK;
+    if (!wanted) return JAM_OK;
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     const ElasticTensor c = elastic_tensor(sys->packing, g, contact_weights(g, diameter_mean(sys->packing), options));
     put_output(c.affine, affine, count);
@@ -125,14 +123,13 @@ jam_status jam_compare(const jam_system *sys, const jam_system *other, jam_compa
                        size_t out_len, size_t *needed) {
   return guard_const(sys, [&]() -> Answer {
     const Reading reading(other, "other");
-    if (!comparison && !out && !needed) fail(JAM_E_NULL, "comparison, out and needed are all NULL");
     check_out_struct(comparison, "comparison");
-    check_output(out, out_len, sys->packing.position.size(), "out");
+    const size_t size = sys->packing.position.size();
+    outputs_wanted(size, needed, {{out, out_len, size, "out"}}, comparison);
     if (sys->packing.container.kind() != other->packing.container.kind() ||
         sys->packing.container.flat() != other->packing.container.flat())
       fail(JAM_E_ARGUMENT, "the two systems have different walls");
     const Comparison c = compare_packings(sys->packing, sys->known_contacts(), other->packing, other->known_contacts());
-    if (needed) *needed = c.displacement.size();
     put_output(c.displacement, out, c.displacement.size());
     give_struct(c.numbers, comparison);
     if (c.doubts.empty()) return JAM_OK;
@@ -179,12 +176,9 @@ jam_status jam_stress_states(jam_system *sys, double *force, size_t force_len, d
   return guard_cancellable(sys, [&]() -> Answer {
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
-    check_output(force, force_len, g.contacts(), "force");
-    if (!basis && basis_len != 0) fail(JAM_E_NULL, "basis is NULL but its length is %zu", basis_len);
-    if (!needed && !force && !basis && !residual) fail(JAM_E_NULL, "needed is NULL and there is no output array");
     const StressStates s = find_stress(g, basis != nullptr);
-    if (needed) *needed = static_cast<size_t>(s.dimension);
-    check_output(basis, basis_len, s.basis.size(), "basis");
+    outputs_wanted(static_cast<size_t>(s.dimension), needed,
+                   {{force, force_len, g.contacts(), "force"}, {basis, basis_len, s.basis.size(), "basis"}}, residual);
     put_output(s.force, force, s.force.size());
     put_output(s.basis, basis, s.basis.size());
     if (residual) *residual = s.residual;

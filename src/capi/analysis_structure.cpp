@@ -28,18 +28,15 @@ jam_status jam_gaps(const jam_system *sys, double h_max, int32_t stable_only, do
   return guard_const(sys, [&]() -> jam_status {
     check_flag(stable_only, "stable_only");
     if (stable_only) need_contacts(sys);
-    if (!needed && !gap && !pair) fail(JAM_E_NULL, "needed is NULL and there is no output array");
+    const auto wanted = [&](size_t count) {
+      return outputs_wanted(count, needed, {{gap, gap_len, count, "gap"}, {pair, pair_len, 2 * count, "pair"}});
+    };
     if (!gap && !pair) {
-      const size_t count = count_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0);
-      check_output(gap, gap_len, count, "gap");
-      check_output(pair, pair_len, count, "pair");
-      *needed = count;
+      wanted(count_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0));
       return JAM_OK;
     }
     const Gaps g = find_gaps(sys->packing, sys->contacts_of_any_kind(), h_max, stable_only != 0);
-    if (needed) *needed = g.gap.size();
-    check_output(gap, gap_len, g.gap.size(), "gap");
-    check_output(pair, pair_len, g.pair.size(), "pair");
+    wanted(g.gap.size());
     put_output(g.gap, gap, g.gap.size());
     put_output(g.pair, pair, g.pair.size());
     return JAM_OK;
@@ -60,10 +57,8 @@ jam_status jam_sphere_structure(const jam_system *sys, int32_t weighted, double 
   return guard_const(sys, [&]() -> jam_status {
     check_flag(weighted, "weighted");
     weighted ? need_network(sys) : need_contacts(sys);
-    if (!needed && !c && !s) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    if (needed) *needed = sys->packing.n();
-    check_output(c, c_len, sys->packing.position.size(), "c");
-    check_output(s, s_len, sys->packing.n(), "s");
+    const size_t n = sys->packing.n();
+    outputs_wanted(n, needed, {{c, c_len, sys->packing.position.size(), "c"}, {s, s_len, n, "s"}});
     const SphereStructure t = sphere_structure(sys->packing, sys->contacts, weighted != 0);
     put_output(t.c, c, t.c.size());
     put_output(t.s, s, t.s.size());
@@ -78,11 +73,8 @@ jam_status jam_contact_dots(const jam_system *sys, int32_t weighted, double *dot
     weighted ? need_network(sys) : need_contacts(sys);
     const std::vector<size_t> of = count_contact_dots(sys->packing, sys->contacts, weighted != 0);
     const size_t count = std::accumulate(of.begin(), of.end(), size_t{0});
-    if (!needed && !dot && !sphere) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    if (needed) *needed = count;
-    check_output(dot, dot_len, count, "dot");
-    check_output(sphere, sphere_len, count, "sphere");
-    if (!dot && !sphere) return JAM_OK;
+    if (!outputs_wanted(count, needed, {{dot, dot_len, count, "dot"}, {sphere, sphere_len, count, "sphere"}}))
+      return JAM_OK;
     const ContactDots t = contact_dots(sys->packing, sys->contacts, weighted != 0);
     put_output(t.dot, dot, count);
     put_output(t.sphere, sphere, count);

@@ -78,15 +78,16 @@ jam_status jam_set_cell(jam_system *sys, const double *cell, size_t cell_len, in
     Packing p = sys->packing;
     refuse_walls(p, "given another cell");
     check_matrix_len("cell", cell_len, p.dim);
-    check_output(transform, transform_len, cell_len, "transform");
-    check_output(rotation, rotation_len, cell_len, "rotation");
+    constexpr bool changes_cell = true;  // whatever arrays it gives
+    outputs_wanted(static_cast<size_t>(p.dim), rows,
+                   {{transform, transform_len, cell_len, "transform"}, {rotation, rotation_len, cell_len, "rotation"}},
+                   changes_cell);
     const NormalCell normal = normal_cell(p.dim, cell);
     p.given.take(digits_of(p.dim, p.position, p.diameter, std::vector<double>(cell, cell + cell_len)));
     enter_cell(p, normal);
     take_cell(sys, p, normal);
     put_output(normal.transform, transform, cell_len);
     put_output(normal.rotation, rotation, cell_len);
-    if (rows) *rows = static_cast<size_t>(p.dim);
     return JAM_OK;
   });
 }

@@ -249,8 +249,9 @@ jam_status jam_parse_diameters(const char *text, jam_diameters_options *o, doubl
     take_options(o, full);
     std::vector<double> rows;
     for (const std::string &file : parse_size_law(text, full, rows)) read_curve(file.c_str(), rows);
+    const jam_status status = give_array(rows.data(), rows.size(), curve, curve_len, needed);
     give_struct(full, o);
-    return give_array(rows.data(), rows.size(), curve, curve_len, needed);
+    return status;
   });
 }
 

@@ -120,13 +120,11 @@ jam_status jam_crunch_step(const jam_system *sys, double *displacement, size_t d
     if (!sys->crunching || !sys->crunching->step().shown)
       fail(JAM_E_STATE, "no step to return: call this from the progress callback of jam_crunch with steps = 1");
     const CrunchStep &s = sys->crunching->step();
-    if (!rows && !displacement && !pair && !vector && !dual)
-      fail(JAM_E_NULL, "rows is NULL and there is no output array");
-    if (rows) *rows = s.multiplier.size();
-    check_output(displacement, displacement_len, s.displacement.size(), "displacement");
-    check_output(pair, pair_len, s.pair.size(), "pair");
-    check_output(vector, vector_len, s.vector.size(), "vector");
-    check_output(dual, dual_len, s.multiplier.size(), "dual");
+    outputs_wanted(s.multiplier.size(), rows,
+                   {{displacement, displacement_len, s.displacement.size(), "displacement"},
+                    {pair, pair_len, s.pair.size(), "pair"},
+                    {vector, vector_len, s.vector.size(), "vector"},
+                    {dual, dual_len, s.multiplier.size(), "dual"}});
     put_output(s.displacement, displacement, s.displacement.size());
     put_output(s.pair, pair, s.pair.size());
     put_output(s.vector, vector, s.vector.size());

@@ -280,23 +280,6 @@ jam_status init_options(T *out, size_t size, T defaults) noexcept {
   });
 }
 
-// The one rule of style "count, then fill": sets *needed and says whether there is an array to fill, with room. Where
-// the size is known before the work, a call asks first and works once.
-template <class T>
-bool array_wanted(size_t count, const T *out, size_t out_len, size_t *needed) {
-  if (!out && out_len != 0) fail(JAM_E_NULL, "output array is NULL but its length is %zu", out_len);
-  if (!out && !needed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-  if (needed) *needed = count;
-  if (out && out_len < count) fail(JAM_E_BUFFER, "output array has %zu elements, %zu are needed", out_len, count);
-  return out != nullptr;
-}
-template <class T>
-jam_status give_array(const T *data, size_t count, T *out, size_t out_len, size_t *needed) {
-  if (!array_wanted(count, out, out_len, needed)) return JAM_OK;
-  if (count) std::memcpy(out, data, count * sizeof(T));
-  return JAM_OK;
-}
-
 // A (d, d) matrix in.
 inline void check_matrix_len(const char *name, size_t len, int dim) {
   if (len != static_cast<size_t>(dim) * static_cast<size_t>(dim))

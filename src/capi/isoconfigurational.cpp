@@ -17,9 +17,8 @@ jam_status with_runs(const jam_system *sys, F &&f) noexcept {
   });
 }
 
-// One of several arrays of a call, in the user's unit; NULL leaves it out.
-void give_scaled(const char *name, const std::vector<double> &data, double unit, double *out, size_t out_len) {
-  check_output(out, out_len, data.size(), name);
+// In the user's unit; NULL leaves it out.
+void give_scaled(const std::vector<double> &data, double unit, double *out) {
   for (size_t k = 0; out && k < data.size(); ++k) out[k] = data[k] * unit;
 }
 
@@ -103,9 +102,11 @@ jam_status jam_isoconf_displacements(const jam_system *sys, int64_t block, doubl
   return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
     const RunSums sums = made.sums(block);
     const double box = made.box();
-    if (rows) *rows = instants_of(sums);
-    give_scaled("displacement", sums.displacement, box, displacement, displacement_len);
-    give_scaled("square", sums.square, box * box, square, square_len);
+    outputs_wanted(instants_of(sums), rows,
+                   {{displacement, displacement_len, sums.displacement.size(), "displacement"},
+                    {square, square_len, sums.square.size(), "square"}});
+    give_scaled(sums.displacement, box, displacement);
+    give_scaled(sums.square, box * box, square);
     return JAM_OK;
   });
 }
@@ -115,9 +116,11 @@ jam_status jam_isoconf_distances(const jam_system *sys, int64_t block, double *d
   return with_runs(sys, [&](const Isoconfigurational &made) -> jam_status {
     const RunSums sums = made.sums(block);
     const double box = made.box();
-    if (rows) *rows = instants_of(sums);
-    give_scaled("distance2", sums.distance2, box * box, distance2, distance2_len);
-    give_scaled("distance4", sums.distance4, box * box * box * box, distance4, distance4_len);
+    outputs_wanted(instants_of(sums), rows,
+                   {{distance2, distance2_len, sums.distance2.size(), "distance2"},
+                    {distance4, distance4_len, sums.distance4.size(), "distance4"}});
+    give_scaled(sums.distance2, box * box, distance2);
+    give_scaled(sums.distance4, box * box * box * box, distance4);
     return JAM_OK;
   });
 }

@@ -69,11 +69,11 @@ jam_status jam_observed_stress(const jam_system *sys, double *out, size_t out_le
 jam_status jam_observed_spheres(const jam_system *sys, int64_t *collisions, size_t collisions_len, double *displacement,
                                 size_t displacement_len, size_t *needed) {
   return with_observer(sys, [&](const Observer &o) -> jam_status {
-    if (needed) *needed = sys->packing.n();
     if (collisions && o.collisions().empty())
       fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
-    check_output(collisions, collisions_len, o.collisions().size(), "collisions");
-    check_output(displacement, displacement_len, o.travelled().size(), "displacement");
+    outputs_wanted(sys->packing.n(), needed,
+                   {{collisions, collisions_len, o.collisions().size(), "collisions"},
+                    {displacement, displacement_len, o.travelled().size(), "displacement"}});
     put_output(o.collisions(), collisions, o.collisions().size());
     std::vector<double> way = o.travelled();
     for (double &x : way) x *= sys->packing.cell.side();
@@ -88,10 +88,11 @@ jam_status jam_observed_pairs(const jam_system *sys, int32_t *pair, size_t pair_
   return with_observer(sys, [&](const Observer &o) -> jam_status {
     if (o.collisions().empty()) fail(JAM_E_STATE, "collisions were not observed: set jam_observe_options.collisions");
     const std::vector<PairSums::Slot> slots = o.pairs().sorted();
-    if (needed) *needed = slots.size();
-    check_output(pair, pair_len, 2 * slots.size(), "pair");
-    check_output(collisions, collisions_len, slots.size(), "collisions");
-    check_output(momentum, momentum_len, slots.size(), "momentum");
+    outputs_wanted(slots.size(), needed,
+                   {{pair, pair_len, 2 * slots.size(), "pair"},
+                    {collisions, collisions_len, slots.size(), "collisions"},
+                    {momentum, momentum_len, slots.size(), "momentum"}},
+                   time);
     for (size_t k = 0; k < slots.size(); ++k) {
       if (pair)
         pair[2 * k] = static_cast<int32_t>(slots[k].key >> 32),

@@ -99,11 +99,9 @@ jam_status jam_voxels(const jam_system *sys, const jam_voxel_options *o, jam_vox
     jam_voxel_options full = default_voxel_options();
     take_options(o, full);
     const VoxelGrid grid = voxel_grid(sys->packing, full);
-    if (!out && !needed && !report) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    check_output(out, out_len, static_cast<size_t>(grid.total()), "out");
-    if (needed) *needed = static_cast<size_t>(grid.total());
+    const size_t total = static_cast<size_t>(grid.total());
     jam_voxel_report r = report_of(grid, full.lines);
-    if (out) {
+    if (outputs_wanted(total, needed, {{out, out_len, total, "out"}}, report)) {
       const VoxelImage image(sys->packing, grid, full.lines);
       Porosity porosity(sys->packing, grid, full.lines);
       for (int64_t z = 0; z < grid.count[2]; ++z) {

@@ -158,12 +158,8 @@ jam_status jam_refined_positions(const jam_system *sys, const double *ratio, siz
                                  size_t high_len, double *low, size_t low_len, size_t *needed) {
   return guard_const(sys, [&]() -> Answer {
     const size_t size = sys->packing.position.size();
-    if (!needed && !high && !low) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    check_output(high, high_len, size, "high");
-    check_output(low, low_len, size, "low");
     ProofScene scene = take_scene(sys, ratio, ratio_len);
-    if (needed) *needed = size;
-    if (!high && !low) return JAM_OK;
+    if (!outputs_wanted(size, needed, {{high, high_len, size, "high"}, {low, low_len, size, "low"}})) return JAM_OK;
     ProofEquations equations;
     Proof proof;
     if (!find_proof(scene, equations, proof)) {

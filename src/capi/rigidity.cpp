@@ -118,11 +118,8 @@ jam_status jam_flex(jam_system *sys, int32_t kind, double *out, size_t out_len, 
   return guard_cancellable(sys, [&]() -> jam_status {
     const Jamming jamming = take_kind(kind);
     const size_t d = static_cast<size_t>(sys->packing.dim), size = sys->packing.position.size();
-    if (!needed && !out && !strain) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    check_output(out, out_len, size, "out");
-    check_output(strain, strain_len, d * d, "strain");
-    if (needed) *needed = size;
-    if (!out && !strain) return JAM_OK;
+    if (!outputs_wanted(size, needed, {{out, out_len, size, "out"}, {strain, strain_len, d * d, "strain"}}))
+      return JAM_OK;
     const TestedPacking tested = without_overlaps(sys->packing);
     const PackingVerdict v = verdict_of(tested, sys->known_contacts(), jamming);
     if (v.contacts.size() > 0 && v.result.flex.empty())
@@ -166,11 +163,7 @@ jam_status jam_bloch_rigidity(jam_system *sys, const int32_t *count, size_t coun
     const Copies copies(p, count);
     const auto m = static_cast<size_t>(copies.number());
     const Table<JAM_BLOCH_COLUMNS> made(columns, table, table_len);
-    if (!rows && !table && !wave) fail(JAM_E_NULL, "rows is NULL and there is no output array");
-    check_output(wave, wave_len, m * count_len, "wave");
-    made.check_room(m);
-    if (rows) *rows = m;
-    if (!table && !wave) return JAM_OK;
+    if (!outputs_wanted(m, rows, {{wave, wave_len, m * count_len, "wave"}, made.output(m)})) return JAM_OK;
     const TestedPacking tested = without_overlaps(p);
     const PackingVerdict v = verdict_of(tested, sys->known_contacts(), Jamming::collective);
     const BlochFlexes found = bloch_flexes(tested.packing, v, copies);

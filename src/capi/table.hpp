@@ -1,13 +1,48 @@
-// Outputs of calls that give several arrays. Tables: calls whose result has several columns fill one array of shape
-// (rows, columns).
+// Arrays out. Tables: calls whose result has several columns fill one array of shape (rows, columns).
 #pragma once
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 #include "capi/guard.hpp"
 
 namespace jam::inside {
+
+// An array out of a call, as its caller gives it, and the elements that it needs.
+struct Output {
+  const void *out;
+  size_t len, expected;
+  const char *name;
+};
+
+// The one rule of calls that give arrays, of which each may be NULL: sets *count, `needed` or `rows` of the call, also
+// where an array is too short, and says whether there is one to fill. Where the sizes are known before the work, a call
+// asks first and works once. takes: the caller wants something else of the call.
+inline bool outputs_wanted(size_t number, size_t *count, std::initializer_list<Output> outputs, bool takes = false) {
+  bool any = false;
+  for (const Output &o : outputs) {
+    if (!o.out && o.len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", o.name, o.len);
+    any = any || o.out;
+  }
+  if (!any && !count && !takes) fail(JAM_E_NULL, "there is no output array, and no place for the size: all are NULL");
+  if (count) *count = number;
+  for (const Output &o : outputs)
+    if (o.out && o.len < o.expected)
+      fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", o.name, o.len, o.expected);
+  return any;
+}
+
+template <class T>
+bool array_wanted(size_t count, const T *out, size_t out_len, size_t *needed) {
+  return outputs_wanted(count, needed, {{out, out_len, count, "output array"}});
+}
+template <class T>
+jam_status give_array(const T *data, size_t count, T *out, size_t out_len, size_t *needed) {
+  if (!array_wanted(count, out, out_len, needed)) return JAM_OK;
+  if (count) std::memcpy(out, data, count * sizeof(T));
+  return JAM_OK;
+}
 
 // A table of N columns as its caller wants it. An older program knows fewer columns and gets the first ones; one of a
 // later version knows more, which are NaN.
@@ -22,19 +57,10 @@ class Table {
   }
   explicit operator bool() const { return out_ != nullptr; }
 
-  void check_room(size_t rows) const {
-    if (out_ && len_ < rows * columns_)
-      fail(JAM_E_BUFFER, "table has %zu elements, %zu are needed (%zu rows of %zu)", len_, rows * columns_, rows,
-           columns_);
-  }
+  Output output(size_t rows) const { return {out_, len_, rows * columns_, "table"}; }
   // Of a call that gives the table alone, whose size is known before the work: sets *needed and says whether there is
   // an array to fill.
-  bool wanted(size_t rows, size_t *needed) const {
-    if (!out_ && !needed) fail(JAM_E_NULL, "needed is NULL and there is no output array");
-    if (needed) *needed = rows * columns_;
-    check_room(rows);
-    return out_ != nullptr;
-  }
+  bool wanted(size_t rows, size_t *needed) const { return outputs_wanted(rows * columns_, needed, {output(rows)}); }
   // fill(k, row) writes the columns of row k, which are NaN before.
   template <class F>
   void give(size_t rows, F &&fill) const {
@@ -65,12 +91,7 @@ jam_status give_table(const std::vector<std::array<double, N>> &rows, int32_t co
   return JAM_OK;
 }
 
-// One of several outputs of a call: checks before anything is written, then fills; count elements are valid, the rest
-// of `expected` becomes NaN.
-inline void check_output(const void *out, size_t len, size_t expected, const char *name) {
-  if (!out && len != 0) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
-  if (out && len < expected) fail(JAM_E_BUFFER, "%s has %zu elements, %zu are needed", name, len, expected);
-}
+// Fills an output of a call: what `data` lacks of `expected` elements becomes NaN.
 template <class T>
 void put_output(const std::vector<T> &data, T *out, size_t expected) {
   if (!out) return;

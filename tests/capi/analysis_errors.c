@@ -114,6 +114,50 @@ CASE(bad_arguments_are_refused) {
   assert_int_equal(jam_compare(s, t, &c, NULL, 0, NULL), JAM_E_ARGUMENT);
 }
 
+/* An array that is too short: the call says how long it must be, and a call that is to give nothing is refused. */
+CASE(short_arrays_get_their_size) {
+  OWNED jam_system *s = square_lattice(4);
+  static const double cell[4] = {1, 0, 0, 1};
+  static const int32_t copies[2] = {2, 1};
+  static double x[64];
+  static int64_t whole[64];
+  const double side = info_of(s).box;
+  double own[4];
+  size_t m = 777;
+  DEFAULTS(voxel, v);
+  v.nx = v.ny = 4;
+#define SHORT(count, call) m = 777, assert_int_equal(call, JAM_E_BUFFER), assert_int_equal(m, count)
+  SHORT(16, jam_voxels(s, &v, NULL, x, 4, &m));
+  SHORT(32, jam_compare(s, s, NULL, x, 4, &m));
+  for (int k = 0; k < 4; ++k) own[k] = cell[k] * side;
+  SHORT(2, jam_set_cell(s, own, 4, whole, 3, NULL, 0, &m));
+  SHORT(2, jam_set_cell(s, own, 4, NULL, 0, x, 3, &m));
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_NOT_JAMMED);
+  SHORT(32, jam_refined_positions(s, NULL, 0, x, 4, NULL, 0, &m));
+  SHORT(16, jam_elastic_tensor(s, NULL, x, 4, NULL, 0, &m));
+  SHORT(32, jam_flex(s, JAM_RIGIDITY_COLLECTIVE, NULL, 0, x, 3, &m));
+  SHORT(2, jam_bloch_rigidity(s, copies, 2, x, 3, JAM_BLOCH_COLUMNS, NULL, 0, &m));
+  SHORT(16, jam_sphere_structure(s, 0, x, 3, NULL, 0, &m));
+  m = 777;
+  assert_int_equal(jam_stress_states(s, x, 1, NULL, 0, NULL, &m), JAM_E_BUFFER);
+  const size_t states = m;
+  SHORT(states, jam_stress_states(s, NULL, 0, x, 1, NULL, &m));
+  assert_int_equal(jam_stress_states(s, NULL, 0, NULL, 0, NULL, &m), JAM_AMBIGUOUS);
+  assert_int_equal(m, states);
+#undef SHORT
+  DEFAULTS(observe, o);
+  assert_int_equal(jam_observe(s, &o), JAM_OK);
+  m = 777;
+  assert_int_equal(jam_observed_spheres(s, whole, 16, NULL, 0, &m), JAM_E_STATE); /* collisions were not observed */
+  assert_int_equal(m, 777);
+  assert_int_equal(jam_observed_spheres(s, NULL, 0, NULL, 0, NULL), JAM_E_NULL);
+  assert_int_equal(jam_observed_spheres(s, NULL, 0, x, 3, &m), JAM_E_BUFFER);
+  assert_int_equal(m, 16);
+  o.collisions = 1;
+  assert_int_equal(jam_observe(s, &o), JAM_OK);
+  assert_int_equal(jam_observed_pairs(s, NULL, 0, NULL, 0, NULL, 0, NULL, NULL), JAM_E_NULL);
+}
+
 /* Every long call stops at the first callback that asks for it, writes no output, and works again afterwards. */
 CASE(every_long_call_can_be_cancelled) {
   OWNED jam_system *s = square_lattice(4), *one = NULL;

@@ -187,6 +187,9 @@ CASE(laws_are_read_from_text) {
   assert_true(o.draw == JAM_DRAW_RANDOM && needed == 0);
   assert_int_equal(jam_parse_diameters("list:1=0.75,1.4=2.5e-1", &o, rows, 4, &needed), JAM_OK);
   assert_true(o.law == JAM_SIZES_LIST && needed == 4 && rows[0] == 1 && rows[3] == 0.25);
+  o = options(JAM_SIZES_EQUAL);
+  assert_int_equal(jam_parse_diameters("list:1=0.75,1.4=2.5e-1", &o, rows, 3, &needed), JAM_E_BUFFER);
+  assert_true(o.law == JAM_SIZES_EQUAL && needed == 4); /* a failure changes no option */
   for (size_t k = 0; bad[k]; ++k)
     if (jam_parse_diameters(bad[k], &o, NULL, 0, &needed) >= 0) fail_msg("%s was taken", bad[k]);
 }
@@ -229,10 +232,10 @@ CASE(curves_are_read_from_files) {
     assert_true(needed == 6 && rows[2] == 1 && rows[3] == 40 && rows[5] == 100);
   }
   SAYS(parsed("0.5 0\n1 40 7\n", NULL, 0, &needed), JAM_E_FORMAT, "line 2");
+  SAYS(parsed("size passing\n0.5 0\n,40\n2 100\n", NULL, 0, &needed), JAM_E_FORMAT, "line 3: column 1 is empty");
   /* a row that lost its first number, and no heading */
   SAYS(parsed("fine 0\n1 40\n", NULL, 0, &needed), JAM_E_FORMAT, "line 1");
 }
-  SAYS(parsed("size passing\n0.5 0\n,40\n2 100\n", NULL, 0, &needed), JAM_E_FORMAT, "line 3: column 1 is empty");
 
 CASE(fluids_do_not_begin_to_grow_beyond_their_reach) {
   DEFAULTS(compress, o);

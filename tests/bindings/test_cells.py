@@ -38,6 +38,12 @@ class Cells(InFolder):
             s.strain(np.zeros((dim, dim)))
         self.assertGreater(made, 20)
 
+    def test_vtp_has_the_cell_in_its_fields(self):
+        s = jam.System.random(n=4, seed=1, cell=[[2, 0, 0], [0.5, 3, 0], [0.25, 0.125, 1]], packing_fraction=0.05)
+        s.write(self.folder / "a.vtp")
+        field = (self.folder / "a.vtp").read_bytes().split(b'Name="cell"')[1].split(b">")[1].split(b"<")[0]
+        self.assertEqual(list(map(float, field.split())), list(np.ravel(s.cell)))
+
     def test_a_cell_that_is_turned_is_noted(self):
         s = jam.System.random(n=4, dim=2, seed=1, cell=[[0, 2], [-1, 0]], packing_fraction=0.05)
         self.assertEqual(s.notes, "the cell was rotated: its vectors are lower-triangular now")

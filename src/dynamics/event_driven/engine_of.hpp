@@ -76,6 +76,7 @@ class EngineOf final : public Engine, private Units<O> {
   void rebase();
   void sort_calendar() { pace_.sort(calendar_, sums, spheres_.n, options_.heap_only != 0); }
   void refresh(double velocity_factor, bool lists);
+  void renew(double velocity_factor, bool lists);
 
   // -- rebuild.hpp
   void build_lists();

@@ -330,7 +330,7 @@ Halt EngineOf<D, O>::advance(int64_t collisions, const Monitor &monitor) {
     if (special == clock_.step_end)
       set_growth(clock_.relative_rate * 2.0 * spheres_.mean_radius() * unit * clock_.grown());
     else
-      refresh(1.0, true);
+      renew(1.0, true);
     if (wants_images_) return Halt::needs_images;
   }
   return Halt::window;

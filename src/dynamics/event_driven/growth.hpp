@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 
+#include "core/call_scope.hpp"
 #include "core/cell_reduction.hpp"
 #include "core/math.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
@@ -65,7 +66,7 @@ void EngineOf<D, O>::set_growth(double growth) {
   const double rate = growth / (2.0 * spheres_.mean_radius() * unit);
   clock_.slow(clock_.rate / rate);
   clock_.start_rate(rate, options_.relative != 0);
-  refresh(1.0, false);
+  renew(1.0, false);
 }
 
 template <int D, Offsets O>
@@ -95,7 +96,7 @@ void EngineOf<D, O>::rebase() {
   move_origin();
   check_pairs();
   if (pace_.choose_shell(sums, in_cell_mode(), lists_))
-    refresh(1.0, true);
+    renew(1.0, true);
   else
     sort_calendar();
 }
@@ -118,10 +119,17 @@ void EngineOf<D, O>::refresh(double velocity_factor, bool lists) {
   sort_calendar();
 }
 
+// refresh() of an engine that runs: no callback meanwhile, as it may store the engine. The main loop looks soon after.
+template <int D, Offsets O>
+void EngineOf<D, O>::renew(double velocity_factor, bool lists) {
+  const CallScope quiet(CallScope::memory_limit());
+  refresh(velocity_factor, lists);
+}
+
 template <int D, Offsets O>
 void EngineOf<D, O>::thermalise() {
   kinetic_.twice = spheres_.twice_kinetic(unit);
-  if (kinetic_.twice > 0.0) refresh(std::sqrt(D * static_cast<double>(spheres_.n) / kinetic_.twice), false);
+  if (kinetic_.twice > 0.0) renew(std::sqrt(D * static_cast<double>(spheres_.n) / kinetic_.twice), false);
 }
 
 }  // namespace jam::inside

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/math.hpp"
 #include "dynamics/event_driven/run.hpp"
@@ -205,6 +206,7 @@ void EventDrivenRun::change_engine(Observer *observer) {
   before_.worst_overlap = std::max(before_.worst_overlap, engine_->max_overlap);
   if (from_archive_) refuse_overlaps(p_, overlap_of_rounding);  // as at the end of a run
   EngineOptions o = options();
+  const CallScope quiet(CallScope::memory_limit());  // a callback would store sums of the new engine beside the old one
   o.growth = engine_->growth();
   engine_ = make_engine(p_, o);
   engine_->set_time_limit(stage_.time - before_.time);

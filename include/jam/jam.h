@@ -580,7 +580,7 @@ typedef struct jam_md_report {
   int32_t stop_reason;          /* @enum jam_stop_reason */
   int64_t collisions, events;   /* in this call; with list updates and stale events */
   double collisions_per_second; /* of wall time */
-  double pressure;              /* reduced. jam_run: mean over the call; jam_compress: last window */
+  double pressure;              /* reduced. jam_run: mean since it began; jam_compress: last window */
   double pressure_error;        /* standard error of that mean from its windows; NaN with too few */
   double packing_fraction;      /* at the end */
   double time;                  /* simulated */

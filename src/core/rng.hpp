@@ -45,7 +45,6 @@ class Rng {
     const double v = uniform();
     return std::sqrt(-2.0 * math::log(u)) * math::cos_of_turns(v);
   }
-  uint64_t counter() const { return counter_; }
 
  private:
   uint64_t key_, counter_;

@@ -95,6 +95,7 @@ struct WindowTuning {
   static constexpr double steady = 0.25;          // no part of the last window below this share of the target pressure
   static constexpr size_t kept_parts = 16;        // while growing
   static constexpr size_t fewest_for_error = 5;   // windows at constant volume
+  static constexpr size_t kept_windows = 4096;    // at constant volume: then two become one
   static constexpr int64_t frozen = 20;           // windows without time until the run counts as stalled
   static constexpr double touching_start = 20.0;  // collisions a sphere: growth that ends before had a touching start
   static constexpr double touching_pressure = 1e4;      // as without a density as aim a pressure above this

@@ -1,7 +1,7 @@
 /* Growth and dynamics at the edges of what is supported: size ratio, masses, cells like rods, a sphere as wide as its
  * cell. Work is never lost at the end of a call. */
 #include <math.h>
-#include "systems.h"
+#include "steps.h"
 
 static double volume_of_sphere(int d, double sigma) {
   return pow(M_PI, 0.5 * d) / tgamma(0.5 * d + 1.0) * pow(0.5 * sigma, d);
@@ -57,6 +57,22 @@ CASE(light_spheres_may_be_fast) {
 }
 
 /* Growth ends where a sphere touches its own image: a status, a sentence and the state. */
+/* Growth needs motion of the spheres against each other: what all share is taken off, and rounding is no motion. */
+CASE(a_common_motion_is_none) {
+  static double v[150];
+  for (int k = 0; k < 4; ++k) {
+    const double noise = k ? pow(10.0, -3.0 * k) : 0.0;
+    OWNED jam_system *sys = random_spheres(3, 50, 0.2, 1);
+    for (int i = 0; i < 150; ++i) v[i] = 0.1 * (1.0 + i % 3) * (1.0 + noise * sin(1.7 * i));
+    DEFAULTS(compress, c);
+    SIZED(jam_md_report, report);
+    c.growth_rate = 1e-2, c.pressure = 100.0, c.time = 1e3;
+    assert_int_equal(jam_set_velocities(sys, v, 150), JAM_OK);
+    assert_int_equal(jam_compress(sys, &c, &report), JAM_OK);
+    assert_true(report.pressure > 100.0 && report.max_overlap < 1e-12);
+  }
+}
+
 CASE(growth_ends_at_the_own_image) {
   int met = 0;
   for (int64_t seed = 0; seed < 60; ++seed) {

@@ -1,6 +1,7 @@
 /* Stages that stop early, by any reason, and go on, in the same process or from a file: the same bits as one that ran
  * through. */
 #include <math.h>
+#include <time.h>
 
 #include "steps.h"
 
@@ -137,6 +138,107 @@ CASE(checkpoints_of_the_callback_go_on) {
     assert_true(two.pressure == one.pressure);
     jam_destroy(w.made);
   }
+}
+
+struct copies {
+  const jam_system *sys;
+  int count;
+  jam_system *made[12];
+};
+
+/* It waits, so that the next look of the library calls it, wherever that is. */
+static int32_t copy_and_wait(const jam_progress *p, void *user) {
+  struct copies *c = user;
+  const struct timespec silence = {0, 110000000};
+  (void)p;
+  if (c->count == 12) return 0;
+  c->made[c->count++] = from_checkpoint(c->sys);
+  nanosleep(&silence, NULL);
+  return 0;
+}
+
+/* Wherever the callback comes, the checkpoint that it writes leads to the same end: also where lists are made again,
+ * and where few spheres grow until an engine with images takes over. */
+CASE(checkpoints_of_every_look_go_on) {
+  for (int kind = 0; kind < 3; ++kind) {
+    OWNED jam_system *sys = make(JAM_MODEL_EUCLID, 3, kind == 2 ? 10 : 1000, kind == 2 ? 0.05 : 0.3);
+    struct copies c = {sys, 0, {NULL}};
+    DEFAULTS(run, r);
+    DEFAULTS(compress, o);
+    r.collisions_per_particle = 300.0;
+    o.growth_rate = 1e-1, o.pressure = kind == 2 ? 1e3 : 100.0;
+    jam_set_progress(sys, copy_and_wait, &c);
+    assert_int_equal(kind ? jam_compress(sys, &o, NULL) : jam_run(sys, &r, NULL), JAM_OK);
+    assert_true(c.count > 0);
+    r.resume = o.resume = 1;
+    for (int k = 0; k < c.count; ++k) {
+      assert_int_equal(kind ? jam_compress(c.made[k], &o, NULL) : jam_run(c.made[k], &r, NULL), JAM_OK);
+      same(sys, c.made[k]);
+      jam_destroy(c.made[k]);
+    }
+  }
+}
+
+/* A simple cubic lattice of touching spheres, or a fluid. */
+static jam_system *lattice_or_fluid(int touching) {
+  double x[3 * 216];
+  const double one = 1.0;
+  if (!touching) return random_spheres(3, 64, 0.2, 3);
+  for (int k = 0; k < 216; ++k) x[3 * k] = k % 6, x[3 * k + 1] = k / 6 % 6, x[3 * k + 2] = k / 36;
+  DEFAULTS(create, o);
+  o.n = 216, o.box = 6.0;
+  return created_from(&o, x, 648, &one, 1);
+}
+
+/* What a stage came to does not depend on how many calls it took: spheres that touch at the start do so in every part,
+ * and growth that ends soon after a pause did not begin at contact. */
+CASE(parts_have_the_verdict_of_the_whole) {
+  for (int touching = 0; touching < 2; ++touching)
+    for (int with_file = 0; with_file < 2; ++with_file) {
+      OWNED jam_system *whole = lattice_or_fluid(touching), *sys = lattice_or_fluid(touching);
+      const double n = (double)info_of(sys).n;
+      SIZED(jam_md_report, report);
+      DEFAULTS(compress, c);
+      c.growth_rate = 1e-2, c.pressure = 1e5;
+      const jam_status expected = jam_compress(whole, &c, &report);
+      assert_true((expected == JAM_OK) == !touching);
+      if (touching) assert_non_null(strstr(jam_last_error(), "touch at the start"));
+      if (touching)
+        c.wall_time = 1e-9;
+      else
+        c.collisions_per_particle = 2.0 * (double)report.collisions / n - 8.0;
+      assert_int_equal(jam_compress(sys, &c, NULL), JAM_LIMIT);
+      move(&sys, with_file);
+      c.collisions_per_particle = c.wall_time = INFINITY, c.resume = 1;
+      assert_int_equal(jam_compress(sys, &c, NULL), expected);
+      if (touching) assert_non_null(strstr(jam_last_error(), "touch at the start"));
+      same(whole, sys);
+    }
+}
+
+static int32_t stop_late(const jam_progress *p, void *user) { return p->collisions > *(const int64_t *)user; }
+
+/* Windows are planned for the first call, which here is a short one. */
+CASE(long_runs_can_be_kept) {
+  const double x[4] = {0.2, 0.2, 0.7, 0.7}, size = 0.25;
+  int64_t enough = 4500000;
+  DEFAULTS(create, o);
+  o.dim = 2, o.n = 2;
+  OWNED jam_system *sys = created_from(&o, x, 4, &size, 1);
+  SIZED(jam_md_report, report);
+  DEFAULTS(run, r);
+  r.collisions_per_particle = 80.0, r.wall_time = 1e-9;
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_LIMIT);
+  r.resume = 1, r.collisions_per_particle = 1e9, r.wall_time = INFINITY;
+  jam_set_progress(sys, stop_late, &enough);
+  assert_int_equal(jam_run(sys, &r, &report), JAM_CANCELLED);
+  assert_true(report.pressure_error > 0.0 && report.pressure_error < 0.01 * report.pressure);
+  jam_set_progress(sys, NULL, NULL);
+  OWNED jam_system *back = from_checkpoint(sys);
+  r.collisions_per_particle = (double)report.collisions + 1000.0;
+  assert_int_equal(jam_run(sys, &r, NULL), JAM_OK);
+  assert_int_equal(jam_run(back, &r, NULL), JAM_OK);
+  same(sys, back);
 }
 
 CASE(finished_stages_cannot_be_resumed) {

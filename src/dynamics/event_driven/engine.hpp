@@ -78,7 +78,6 @@ class Engine {
 struct EngineOptions {
   double growth = 0.0;             // G
   double target_fraction = never;  // stop exactly there
-  int64_t heap_only = 0;           // 1: one heap of all events instead of the calendar, for comparison
   int64_t relative = 0;            // 1: keep the relative rate of growth, d ln sigma / dt
   int64_t cells = 0;  // 1: cells alone wherever they hold, -1: lists always, 0: what is faster at this density
   InstructionSet instruction_set = InstructionSet::best;  // changes no bit; for tests and benchmarks

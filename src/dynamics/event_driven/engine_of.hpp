@@ -74,7 +74,7 @@ class EngineOf final : public Engine, private Units<O> {
   void begin(const Packing &p);
   void move_origin();
   void rebase();
-  void sort_calendar() { pace_.sort(calendar_, sums, spheres_.n, options_.heap_only != 0); }
+  void sort_calendar() { pace_.sort(calendar_, sums, spheres_.n); }
   void refresh(double velocity_factor, bool lists);
   void renew(double velocity_factor, bool lists);
 

@@ -40,7 +40,6 @@ struct ImageGrid {
   using Offset = std::array<int64_t, D>;
 
   int64_t in_use = 0;
-  int32_t unused_range = 1;                // is in archives
   std::array<int64_t, D> side{}, range{};  // along each cell vector
 
   bool used() const { return in_use != 0; }
@@ -115,12 +114,10 @@ struct ImageGrid {
   }
   void archive(Archive &a, const Lattice<D> &) {
     a(in_use);
-    a(unused_range);
     a(side);
     a(range);
   }
   double check(int32_t n, const Lattice<D> &) const {
-    Archive::check(unused_range == 1);
     if (in_use == 0) return 0.0;
     Archive::check(in_use == 1);
     double looked_cells = 1.0, all = 1.0;

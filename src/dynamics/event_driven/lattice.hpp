@@ -118,12 +118,6 @@ class Lattice {
       if (r2 < cutoff2) f(shift);
     }
   }
-  // Whether an image of r is shorter.
-  bool reaches(const Vector &r, double cutoff) const {
-    bool any = false;
-    images(r, cutoff, [&any](const Vector &) { any = true; });
-    return any;
-  }
 
  private:
   static int64_t sum(int64_t a, uint64_t b) { return static_cast<int64_t>(static_cast<uint64_t>(a) + b); }

@@ -7,12 +7,33 @@
 #include "dynamics/dynamics.hpp"
 #include "dynamics/event_driven/engine_of.hpp"
 #include "dynamics/event_driven/velocities.hpp"
+#include "dynamics/tuning.hpp"
 
 namespace jam::inside {
 namespace {
 
 // Whether the motion of the centre of mass is none of the heat. Of one sphere without walls it is the only motion.
 bool drifts(const Packing &p) { return p.n() > 1 || p.container; }
+
+double mean_velocity(const Packing &p, const std::vector<double> &mass, size_t c) {
+  const size_t n = p.n(), d = static_cast<size_t>(p.dim);
+  double mean = 0.0;
+  for (size_t i = 0; i < n; ++i) mean += mass[i] * p.velocity[i * d + c];
+  return mean / static_cast<double>(n);  // masses have mean 1
+}
+
+double energy_of(const Packing &p, const std::vector<double> &mass) {
+  double sum = 0.0;
+  for (size_t k = 0; k < p.velocity.size(); ++k)
+    sum += mass[k / static_cast<size_t>(p.dim)] * p.velocity[k] * p.velocity[k];
+  return sum;
+}
+
+std::vector<double> masses_of(const Packing &p) {
+  std::vector<double> mass = sphere_masses(p);
+  if (mass.empty()) mass.assign(p.n(), 1.0);
+  return mass;
+}
 
 std::unique_ptr<Engine> choose(const Packing &p, const EngineOptions &o, bool images, Archive *from) {
   return with_dimension(p.dim, [&](auto d) -> std::unique_ptr<Engine> {
@@ -64,18 +85,29 @@ std::unique_ptr<Engine> make_engine(const Packing &p, Archive &from) {
 }
 
 double twice_kinetic(const Packing &p) {
-  std::vector<double> mass = sphere_masses(p);
-  if (mass.empty()) mass.assign(p.n(), 1.0);
+  const std::vector<double> mass = masses_of(p);
   const size_t d = static_cast<size_t>(p.dim);
-  double sum = 0.0, drift = 0.0;
-  for (size_t k = 0; k < p.velocity.size(); ++k) sum += mass[k / d] * p.velocity[k] * p.velocity[k];
+  double drift = 0.0;
   for (size_t c = 0; c < d && drifts(p); ++c) {
     if (!p.cell.repeats(static_cast<int>(c))) continue;  // walls take momentum
     double momentum = 0.0;
     for (size_t i = 0; i < p.n(); ++i) momentum += mass[i] * p.velocity[i * d + c];
     drift += momentum * momentum / static_cast<double>(p.n());  // masses have mean 1
   }
-  return sum - drift;
+  return energy_of(p, mass) - drift;
+}
+
+bool take_drift(Packing &p) {
+  const std::vector<double> mass = masses_of(p);
+  const size_t d = static_cast<size_t>(p.dim);
+  const double all = energy_of(p, mass);
+  for (size_t c = 0; c < d && drifts(p); ++c) {
+    if (!p.cell.repeats(static_cast<int>(c))) continue;  // walls take momentum
+    const double mean = mean_velocity(p, mass, c);
+    if (!(static_cast<double>(p.n()) * mean * mean > CollisionTuning::motion_as_one * all)) continue;
+    for (size_t i = 0; i < p.n(); ++i) p.velocity[i * d + c] -= mean;
+  }
+  return energy_of(p, mass) > CollisionTuning::motion_as_one * all;
 }
 
 void scale_velocities(Packing &p) {
@@ -85,14 +117,11 @@ void scale_velocities(Packing &p) {
 
 void draw_velocities(Packing &p, Rng &rng) {
   const size_t n = p.n(), d = static_cast<size_t>(p.dim);
-  std::vector<double> mass = sphere_masses(p);
-  if (mass.empty()) mass.assign(n, 1.0);
+  const std::vector<double> mass = masses_of(p);
   for (size_t k = 0; k < n * d; ++k) p.velocity[k] = rng.normal() / std::sqrt(mass[k / d]);
   for (size_t c = 0; c < d && drifts(p); ++c) {
     if (!p.cell.repeats(static_cast<int>(c))) continue;
-    double mean = 0.0;
-    for (size_t i = 0; i < n; ++i) mean += mass[i] * p.velocity[i * d + c];
-    mean /= static_cast<double>(n);
+    const double mean = mean_velocity(p, mass, c);
     for (size_t i = 0; i < n; ++i) p.velocity[i * d + c] -= mean;
   }
   p.has_velocity = true;

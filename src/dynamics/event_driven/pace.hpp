@@ -47,7 +47,7 @@ struct Pace {
   }
 
   // Sorts all events into buckets of about one event each.
-  void sort(Calendar &calendar, const MdSums &sums, int32_t n, bool heap_only) {
+  void sort(Calendar &calendar, const MdSums &sums, int32_t n) {
     using Tuning = CalendarTuning;
     const double elapsed = sums.time - time_before;
     const int64_t events = sums.events - events_before;
@@ -63,7 +63,7 @@ struct Pace {
     const double least = Tuning::earliest_events * earliest / static_cast<double>(calendar.buckets());
     const double width = bucket_width < never ? std::max(bucket_width, least) : least;
     rebase_at = sums.events + Tuning::events_between * static_cast<int64_t>(n) + Tuning::more_events;
-    calendar.rebuild(0.0, earliest < never && !heap_only ? width : 0.0);
+    calendar.rebuild(0.0, earliest < never ? width : 0.0);
   }
   // In the order of checkpoints.
   void archive(Archive &a) {

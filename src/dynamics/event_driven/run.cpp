@@ -22,15 +22,16 @@ EventDrivenRun::EventDrivenRun(Packing p, const GrowthStage &stage)
 // Searches for overlaps and makes the engine. A reason to stop: the next run starts again.
 int32_t EventDrivenRun::begin(Monitor &monitor) {
   if (engine_) return JAM_STOP_NONE;
-  drawn_ = !p_.has_velocity || (growing() && !(twice_kinetic(p_) > 0.0));
-  if (drawn_) {
+  // Velocities that a compression has scaled at its end stay as they are. So do those of a stage that was stopped here.
+  const auto scaled = [this] { return std::fabs(twice_kinetic(p_) / (n_ * p_.dim) - 1.0) < 1e-12; };
+  const bool draws = !p_.has_velocity || (growing() && !scaled() && !take_drift(p_));
+  if (draws) {
+    drawn_ = true;
     Rng rng(p_.seed, Stream::velocities);
     draw_velocities(p_, rng);
     scale_velocities(p_);
   }
-  // Velocities that a compression has scaled at its end stay as they are.
-  const bool scaled = std::fabs(twice_kinetic(p_) / (n_ * p_.dim) - 1.0) < 1e-12;
-  if (growing() && (drawn_ || !scaled)) scale_velocities(p_);
+  if (growing() && (draws || !scaled())) scale_velocities(p_);
   jam_progress q = progress_of(phase());
   q.packing_fraction = packing_fraction(p_);
   monitor.expect(q);
@@ -62,6 +63,7 @@ void EventDrivenRun::archive(Archive &a) {
   for (int64_t *k : {&window_.length, &window_.part, &window_.part_goal, &window_.steady, &before_.collisions,
                      &before_.events, &cooling_.collisions, &frozen_})
     a(*k);
+  a(drawn_);
   a(window_.pressures);
   for (std::vector<double> *walls : {&window_.walls, &before_.walls})
     if (p_.container) {
@@ -72,7 +74,7 @@ void EventDrivenRun::archive(Archive &a) {
     Archive::check(stage_.then == 0.0 || stage_.then > 1.0);
     for (const double rate : {stage_.growth, stage_.growth_end})
       Archive::check(rate == 0.0 || (rate >= limits::growth_rate_min && rate <= limits::growth_rate_max));
-    Archive::check(window_.length > 0 && window_.part >= 0 && window_.pressures.size() < 1u << 20);
+    Archive::check(window_.length > 0 && window_.part >= 0 && window_.pressures.size() < WindowTuning::kept_windows);
     for (const int64_t k : {window_.length, window_.part, window_.part_goal, window_.steady, before_.collisions,
                             before_.events, cooling_.collisions, frozen_})
       Archive::check(k > -(int64_t{1} << 60) && k < int64_t{1} << 60);  // sums and differences are taken of them

@@ -44,7 +44,7 @@ struct PressureWindow {
   int64_t part = 0, part_goal = 0;
   PressureSums of_part, whole;    // of this part before an engine with images took over; of the parts before it
   int64_t steady = 1;             // no part of the window is far below the target pressure
-  std::vector<double> pressures;  // of parts
+  std::vector<double> pressures;  // of parts; at constant volume of all windows, or of pairs of them and so on
   std::vector<double> walls;      // momentum that each wall had received before the window
 };
 
@@ -96,6 +96,7 @@ class EventDrivenRun final : public Dynamics {
   void finish(int32_t reason);
   double standard_error() const;
   jam_status status_of(int32_t reason) const;
+  double collisions_per_sphere() const;
   bool touched_at_start() const;
   bool denser_than_wanted() const;
   bool missed_density() const;  // the stage, and none follows, ended below the packing fraction that is wanted
@@ -106,6 +107,7 @@ class EventDrivenRun final : public Dynamics {
   int32_t end_of_part(int32_t reason);
   void begin_part();
   void end_part();
+  void merge_windows();
   void plan_window();
   int32_t reason_to_end();
   double finest_pressure() const;
@@ -137,7 +139,7 @@ class EventDrivenRun final : public Dynamics {
   GrowthStage stage_;
   double n_;
   bool from_archive_ = false;
-  bool drawn_ = false;  // by the first run() of this object: velocities
+  bool drawn_ = false;  // velocities, by the stage
   std::unique_ptr<Engine> engine_;
   double goal_ = 0.0;                                                                  // collisions
   double kinetic_ = 0.0;                                                               // sum of m v^2 at the beginning

@@ -119,6 +119,11 @@ double EventDrivenRun::standard_error() const {
   return std::sqrt(square / (growing() ? static_cast<double>(WindowTuning::parts) : m));
 }
 
+// Since the beginning of the stage, or of the protocol where this call began it.
+double EventDrivenRun::collisions_per_sphere() const {
+  return 2.0 * static_cast<double>(std::max(collisions(), report.collisions)) / n_;
+}
+
 // Growth from touching spheres: they collide without time to move, so the pressure of the first windows is beyond any
 // aim. It says nothing about the density at which they jam. Spheres that dynamics brought near jamming have velocities.
 bool EventDrivenRun::touched_at_start() const {
@@ -127,7 +132,7 @@ bool EventDrivenRun::touched_at_start() const {
   const bool aims_at_density = stage_.packing_fraction < no_limit;
   if (!growing() || !by_pressure || (aims_at_density && packing_fraction(p_) >= stage_.packing_fraction)) return false;
   return (aims_at_density || (drawn_ && !(pressure_ < WindowTuning::touching_pressure))) &&
-         static_cast<double>(report.collisions) < 0.5 * n_ * WindowTuning::touching_start;
+         collisions_per_sphere() < WindowTuning::touching_start;
 }
 
 // Growth to a density cannot begin above it.
@@ -145,7 +150,7 @@ std::string EventDrivenRun::text() const {
         line, sizeof line,
         "spheres touch at the start: growth ended at pressure %.3g after %.2g collisions a sphere, at packing "
         "fraction %.6g%s; unless they are jammed, jam_scale_diameters(sys, 0.99) before growth lets them move apart",
-        pressure_, 2.0 * static_cast<double>(report.collisions) / n_, packing_fraction(p_), aim);
+        pressure_, collisions_per_sphere(), packing_fraction(p_), aim);
     return line;
   }
   if (denser_than_wanted()) {

@@ -53,9 +53,19 @@ void EventDrivenRun::end_part() {
     window_.pressures.push_back(reduced_pressure(ended));
     if (growing() && window_.pressures.size() > WindowTuning::kept_parts)
       window_.pressures.erase(window_.pressures.begin());
+    else if (window_.pressures.size() == WindowTuning::kept_windows)
+      merge_windows();
   }
   window_.whole += ended;
   ++window_.part;
+}
+
+// A long run has windows of twice the length from here on: no more of them than its error needs.
+void EventDrivenRun::merge_windows() {
+  std::vector<double> &p = window_.pressures;
+  for (size_t k = 0; 2 * k < p.size(); ++k) p[k] = 0.5 * (p[2 * k] + p[2 * k + 1]);
+  p.resize(p.size() / 2);
+  window_.length *= 2;
 }
 
 // Runs to the end of the part or of the stage, or to a limit. JAM_STOP_NONE: the part has ended.
@@ -90,7 +100,8 @@ int32_t EventDrivenRun::end_of_part(int32_t reason) {
     ++frozen_;
     reason = JAM_STOP_STALLED;
   }
-  if (reason == JAM_STOP_PACKING_FRACTION || (reason == JAM_STOP_COLLISIONS && std::isnan(pressure_))) {
+  if (reason == JAM_STOP_PACKING_FRACTION ||
+      ((reason == JAM_STOP_COLLISIONS || reason == JAM_STOP_TIME) && std::isnan(pressure_))) {
     const PressureSums last = window_.whole + window_.of_part + engine_->sums.of_pressure;
     if (last.time_has_passed()) pressure_ = reduced_pressure(last);
     note_wall_pressure(last, window_.walls);
@@ -195,6 +206,7 @@ void EventDrivenRun::slow_down() {
 }
 
 void EventDrivenRun::change_engine(Observer *observer) {
+  const CallScope quiet(CallScope::memory_limit());  // a callback would store sums of the new engine beside the old one
   if (observer) engine_->observe(nullptr);
   engine_->write_state(p_);
   before_.collisions += engine_->sums.collisions;
@@ -206,7 +218,6 @@ void EventDrivenRun::change_engine(Observer *observer) {
   before_.worst_overlap = std::max(before_.worst_overlap, engine_->max_overlap);
   if (from_archive_) refuse_overlaps(p_, overlap_of_rounding);  // as at the end of a run
   EngineOptions o = options();
-  const CallScope quiet(CallScope::memory_limit());  // a callback would store sums of the new engine beside the old one
   o.growth = engine_->growth();
   engine_ = make_engine(p_, o);
   engine_->set_time_limit(stage_.time - before_.time);

@@ -33,7 +33,7 @@ class StepTuner {
 };
 
 struct MonteCarloCounts {
-  int64_t moves = 0, moved = 0, swaps = 0, swapped = 0, lists = 0;
+  int64_t moves = 0, moved = 0, swaps = 0, swapped = 0;
   double acceptance() const { return share(moved, moves); }
   double swap_acceptance() const { return share(swapped, swaps); }
 

@@ -107,7 +107,6 @@ class MonteCarloSpheres : public MonteCarlo {
   }
   // Gaps up to `gap` of the contact distance are listed besides, where the skin may be less.
   void make_lists(double gap = 0.0) {
-    ++counts.lists;
     found_.clear();
     stretch_ = 1.0 + gap;
     const auto cells = static_cast<int64_t>(geometry_.height() / list_range());

@@ -161,8 +161,7 @@ struct EnsembleTuning {
   // A run that has begun is at most so many numbers ahead of the sums; its record waits in memory.
   static constexpr int64_t runs_ahead = 32;
   static constexpr int64_t collisions_between_reports = 1 << 16;  // some 20 ms
-  static constexpr int64_t sweeps_between_looks = 16;
-  static constexpr double roundings_of_gap = 100.0;  // smaller gaps at the start would be rounding
+  static constexpr double roundings_of_gap = 100.0;               // smaller gaps at the start would be rounding
 };
 
 }  // namespace jam::inside

@@ -228,6 +228,20 @@ CASE(time_and_temperature_are_those_asked_for) {
   assert_true(fabs(first[JAM_ISOCONF_VELOCITY] / RUNS - 1.0) < 1e-3);
 }
 
+/* Instants that no run comes to: the time ends first, and no run counts. */
+CASE(far_instants_are_not_reached) {
+  static const double far[2] = {1.0, 1e300};
+  OWNED jam_system *sys = packing();
+  jam_isoconf_options o = options();
+  DEFAULTS(monte_carlo, m);
+  SIZED(jam_isoconf_report, r);
+  o.wall_time = 0.02, m.step = 0.1;
+  for (int metropolis = 0; metropolis < 2; ++metropolis) {
+    assert_int_equal(jam_isoconf(sys, &o, metropolis ? &m : NULL, far, 2, NULL, 0, &r), JAM_LIMIT);
+    assert_int_equal(r.runs, 0);
+  }
+}
+
 CASE(bad_input_is_named) {
   static const double falling[2] = {2.0, 1.0}, none[1] = {0.0};
   static const int32_t twice[2] = {1, 1}, beyond[1] = {3};

@@ -168,7 +168,7 @@ void Isoconfigurational::archive(Archive &a) {
   a(blocks);
   a(sets);
   if (a.reading()) {
-    Archive::check(blocks < 1u << 24 && sets == kept_instants_.size());
+    Archive::check(sets == kept_instants_.size());
     check_isoconf_options(plan_.options);
     if (plan_.metropolis) {
       check_monte_carlo_options(plan_.monte_carlo);

@@ -178,11 +178,14 @@ void draw_run_velocities(Packing &p, int64_t run, double temperature) {
 
 namespace {
 
+// Collisions or sweeps of an instant; of one that no run comes to, so many that none comes to them either.
+int64_t whole_number(double count) { return std::llround(std::min(count, 9e18)); }
+
 // Advances to the instant; NONE when it is reached. `left` is the time from the last event to the instant.
 int32_t advance_to(Engine &engine, const RunPlan &plan, double instant, const RunControl &control, double &left) {
   const bool by_time = plan.options.clock == JAM_CLOCK_TIME;
   const double twice = static_cast<double>(plan.start.n());
-  const int64_t goal = by_time ? std::numeric_limits<int64_t>::max() : std::llround(0.5 * instant * twice);
+  const int64_t goal = by_time ? std::numeric_limits<int64_t>::max() : whole_number(0.5 * instant * twice);
   left = 0.0;
   if (by_time) engine.set_time_limit(instant - engine.elapsed());
   while (engine.sums.collisions < goal) {
@@ -246,9 +249,8 @@ void run_metropolis(const RunPlan &plan, int64_t run, const RunControl &control,
   const size_t coordinates = plan.start.position.size();
   int64_t sweep = 0;
   for (size_t m = 0; m < plan.instants.size(); ++m) {
-    for (const int64_t goal = std::llround(plan.instants[m]); sweep < goal; ++sweep) {
+    for (const int64_t goal = whole_number(plan.instants[m]); sweep < goal; ++sweep) {
       mc->sweep(sweep);
-      if (sweep % EnsembleTuning::sweeps_between_looks != 0) continue;
       if (!control.stopped()) continue;
       record.stop_reason = control.monitor.why_interrupted();
       return;

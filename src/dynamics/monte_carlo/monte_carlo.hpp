@@ -108,7 +108,6 @@ class MonteCarloRun final : public Dynamics {
 
  private:
   bool begin(Monitor &monitor);
-  void report_step(Monitor &monitor, double goal) const;
   void take_displacement(Observer *observer);
   Packing p_;
   jam_monte_carlo_options options_;

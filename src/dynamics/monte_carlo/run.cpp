@@ -97,14 +97,6 @@ Packing MonteCarloRun::current() const {
   return p;
 }
 
-void MonteCarloRun::report_step(Monitor &monitor, double goal) const {
-  jam_progress q = progress_of(phase());
-  q.packing_fraction = packing_fraction(p_);
-  q.fraction = static_cast<double>(done_) / goal;
-  q.steps = done_;
-  monitor.report(q);
-}
-
 void MonteCarloRun::take_displacement(Observer *observer) {
   const std::vector<double> &moved = engine_->displacement();
   const size_t d = static_cast<size_t>(p_.dim);
@@ -124,13 +116,16 @@ jam_status MonteCarloRun::run(const Limits &limits, const Listeners &listeners) 
   // No callback inside a sweep: what it stores must be whole.
   const CallScope quiet(CallScope::memory_limit());
   const int64_t goal = static_cast<int64_t>(std::min(limits.per_particle, 9e15)), before = done_;
+  jam_progress q = progress_of(phase());
+  q.packing_fraction = packing_fraction(p_);
   stop_reason_ = JAM_STOP_COLLISIONS;
   while (done_ < goal) {
     engine_->sweep(options_.first_sweep + done_++);
-    if (done_ % SampleTuning::sweeps != 0) continue;
-    means_.sample(*engine_);
+    if (done_ % SampleTuning::sweeps == 0) means_.sample(*engine_);
     if (done_ == goal) break;
-    report_step(*listeners.monitor, static_cast<double>(goal));
+    q.fraction = static_cast<double>(done_) / static_cast<double>(goal);
+    q.steps = done_;
+    listeners.monitor->report(q);
     if (!listeners.monitor->interrupted()) continue;
     stop_reason_ = listeners.monitor->why_interrupted();
     break;

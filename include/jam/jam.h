@@ -718,7 +718,7 @@ typedef struct jam_monte_carlo_report {
   double acceptance, swap_acceptance; /* of moves; of swaps, NaN without any */
   double step;                        /* used, mean diameters */
   double energy, energy_error;        /* mean energy a sphere; its standard error from 20 parts, NaN with few sweeps */
-  double pressure, pressure_error;    /* reduced p, soft: virial, hard: pairs at contact; its standard error */
+  double pressure, pressure_error;    /* reduced p, soft: virial, hard: pairs at contact, NaN of few; its error */
   double msd;                         /* mean-square displacement since the run began, box^2 */
   double trials_per_second, seconds;  /* of this call, wall time */
 } jam_monte_carlo_report;

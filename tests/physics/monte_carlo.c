@@ -225,6 +225,38 @@ CASE(resumed_runs_have_the_same_bits_and_hard_spheres_stay_apart) {
   remove(path);
 }
 
+/* A call whose time is over makes one sweep, and parts of any length come to the same bits. */
+CASE(a_sweep_is_the_longest_that_a_call_goes_on) {
+  DEFAULTS(create, c);
+  c.n = 30, c.packing_fraction = 0.2;
+  OWNED jam_system *a = created(&c), *b = copy_of(a);
+  jam_monte_carlo_options o = options(0.0, 1.0, 45);
+  o.step = 0.2;
+  const jam_monte_carlo_report whole = run(a, &o);
+  SIZED(jam_monte_carlo_report, r);
+  for (int k = 1; k < 45; ++k, o.resume = 1) {
+    o.wall_time = 1e-9;
+    assert_int_equal(jam_monte_carlo(b, &o, &r), JAM_LIMIT);
+    assert_int_equal(r.sweeps, k);
+  }
+  r = run(b, &o);
+  assert_true(r.pressure == whole.pressure && r.msd == whole.msd);
+  same_view(a, b, JAM_VIEW_POSITIONS);
+}
+
+/* Few samples say nothing of the pressure, unless their fit is sharp. */
+CASE(a_pressure_of_few_samples_is_none) {
+  for (int64_t seed = 0; seed < 20; ++seed) {
+    DEFAULTS(create, c);
+    c.n = 8, c.packing_fraction = 0.3, c.seed = seed;
+    OWNED jam_system *sys = created(&c);
+    jam_monte_carlo_options o = options(0.0, 1.0, 10);
+    o.step = 0.3;
+    const double p = run(sys, &o).pressure; /* of many sweeps it is near 4 */
+    assert_true(isnan(p) || (p > 1.0 && p < 30.0));
+  }
+}
+
 CASE(runs_from_one_state_have_streams_of_their_own) {
   const double sigma[3] = {0.28, 0.40, 0.48}, instants[2] = {5.0, 50.0};
   OWNED jam_system *sys = disks(3, sigma);

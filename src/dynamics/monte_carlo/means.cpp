@@ -125,9 +125,11 @@ void MonteCarloMeans::sample(MonteCarlo &mc) {
 
 namespace {
 
-// Density of pairs at h = 0 from counts in bins: ln(count) = a + b h + c h^2 by least squares, weights count.
+// Density of pairs at h = 0 from counts in bins: ln(count) = a + b h + c h^2 by least squares, weights count. NaN where
+// so few counts leave a, whose error is the root of an element of the inverse matrix, open by 1 or more.
 double density_at_contact(const std::vector<double> &count, double h_max) {
-  double m[3][4] = {};
+  double m[3][5] = {};
+  m[0][4] = 1.0;
   const double width = h_max / static_cast<double>(count.size());
   for (size_t k = 0; k < count.size(); ++k) {
     if (!(count[k] > 0.0)) continue;
@@ -143,9 +145,10 @@ double density_at_contact(const std::vector<double> &count, double h_max) {
     for (int b = 0; b < 3; ++b) {
       if (b == a) continue;
       const double factor = m[b][a] / m[a][a];
-      for (int c = 0; c < 4; ++c) m[b][c] -= factor * m[a][c];
+      for (int c = 0; c < 5; ++c) m[b][c] -= factor * m[a][c];
     }
   }
+  if (!(m[0][4] < m[0][0])) return std::numeric_limits<double>::quiet_NaN();
   return math::exp(m[0][3] / m[0][0]);
 }
 

@@ -122,6 +122,8 @@ class MonteCarloSpheres : public MonteCarlo {
         look_at_limits(i);
         for (int32_t k = i + 1; k < n_; ++k) note_pair(i, k);
       }
+    if (found_.size() > size_t{1} << 30)
+      fail(JAM_E_MEMORY, "neighbour lists of %zu pairs: Monte Carlo counts up to 2^30", found_.size());
     std::fill(first_.begin(), first_.end(), 0);
     for (const auto &pair : found_) ++first_[pair[0] + 1], ++first_[pair[1] + 1];
     for (int32_t i = 0; i < n_; ++i) first_[i + 1] += first_[i];

@@ -190,6 +190,24 @@ class Running {
   jam_system *sys_;
 };
 
+// What was observed before a call, given back to the handle where the call fails.
+class Observations {
+ public:
+  explicit Observations(jam_system *sys) : sys_(sys) {
+    if (sys->observing) before_ = std::make_unique<Observer>(*sys->observer);
+  }
+  ~Observations() {
+    if (before_) sys_->observer = std::move(before_);
+  }
+  void keep() { before_.reset(); }
+  Observations(const Observations &) = delete;
+  Observations &operator=(const Observations &) = delete;
+
+ private:
+  jam_system *sys_;
+  std::unique_ptr<Observer> before_;
+};
+
 inline void need(const void *pointer, const char *name) {
   if (!pointer) fail(JAM_E_NULL, "%s is NULL", name);
 }

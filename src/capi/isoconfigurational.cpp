@@ -180,6 +180,7 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     Listeners listeners;
     listeners.monitor = &sys->monitor;
     if (sys->observing) listeners.observer = sys->observer.get();
+    Observations observations(sys);
     jam_status status = JAM_OK;
     {
       const Running running(sys, stage.get());
@@ -192,6 +193,7 @@ jam_status jam_monte_carlo(jam_system *sys, const jam_monte_carlo_options *o, ja
     } else {
       sys->crunch_paused.reset();  // a handle keeps only the last paused run
     }
+    observations.keep();
     sys->sweeps = made.next_sweep;
     if (status != JAM_OK) sys->paused = std::move(stage);
     give_struct(made, report);

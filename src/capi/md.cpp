@@ -113,14 +113,17 @@ Answer run_all(jam_system *sys, std::unique_ptr<EventDrivenRun> stage, Limits li
   }
 }
 
-// The same, and one call is one change: after a failure the packing is that of before.
+// The same, and one call is one change: after a failure packing and observations are those of before.
 Answer run_stages(jam_system *sys, std::unique_ptr<EventDrivenRun> stage, const Limits &limits, jam_md_report &report) {
   std::unique_ptr<Packing> before;
   Results results;
   if (stage->plan().then > 0.0) before = std::make_unique<Packing>(sys->packing), results = sys->results();
   bool moved = false;
+  Observations observations(sys);
   try {
-    return run_all(sys, std::move(stage), limits, report, moved);
+    const Answer answer = run_all(sys, std::move(stage), limits, report, moved);
+    observations.keep();
+    return answer;
   } catch (...) {
     if (before && moved) sys->commit_measured(*before, std::move(results));
     throw;

@@ -209,6 +209,26 @@ CASE(snapshots_show_the_present_state) {
   }
 }
 
+/* One call is one change: what a call saw before it failed is no part of the observations. */
+CASE(a_failed_call_is_not_observed) {
+  enum { MANY = 2000 };
+  static int64_t before[MANY], after[MANY];
+  static double way[3 * MANY], way_after[3 * MANY];
+  OWNED jam_system *sys = random_spheres(3, MANY, 0.1, 1);
+  DEFAULTS(observe, o);
+  DEFAULTS(compress, c);
+  o.collisions = 1, o.sample_every = 2.0;
+  c.growth_rate = 0.1, c.pressure = 1e4;
+  assert_int_equal(jam_observe(sys, &o), JAM_OK);
+  run(sys, 10.0);
+  assert_int_equal(jam_observed_spheres(sys, before, MANY, way, 3 * MANY, NULL), JAM_OK);
+  assert_int_equal(jam_set_memory_limit(sys, 1.3e5), JAM_OK); /* too little for the lists of a dense fluid */
+  assert_int_equal(jam_compress(sys, &c, NULL), JAM_E_MEMORY);
+  assert_int_equal(jam_observed_spheres(sys, after, MANY, way_after, 3 * MANY, NULL), JAM_OK);
+  assert_memory_equal(after, before, sizeof before);
+  assert_memory_equal(way_after, way, sizeof way);
+}
+
 CASE(what_was_not_observed_is_told) {
   int64_t collisions[8];
   double x[8];

@@ -109,8 +109,16 @@ void place_uniformly(Packing &p) {
   Rng rng(p.seed, Stream::rsa_positions);
   for (size_t i = 0; i < p.n(); ++i) {
     double *x = &p.position[i * static_cast<size_t>(p.dim)];
-    do random_point(p, rng, 0.5 * p.diameter[i], x);
-    while (!p.container.holds(x, 0.5 * p.diameter[i]));
+    int64_t tries = 0;
+    do {
+      if (tries == PlaceTuning::most_tries)
+        fail(JAM_E_UNPLACEABLE,
+             "no place for sphere %zu of diameter %g was found between the walls: start at a lower "
+             "packing_fraction, and grow the spheres",
+             i, p.diameter[i]);
+      if (++tries % PlaceTuning::tries_between_looks == 0) CallScope::look();
+      random_point(p, rng, 0.5 * p.diameter[i], x);
+    } while (!p.container.holds(x, 0.5 * p.diameter[i]));
   }
 }
 

@@ -103,6 +103,18 @@ static jam_status start_with(int32_t dim, const double *cell, int32_t container,
   return jam_create(&o, &start, &sys);
 }
 
+/* Overlaps are allowed, but a sphere has nearly no place beside the walls. */
+CASE(places_that_are_not_found_are_told) {
+  jam_system *sys = NULL;
+  DEFAULTS(create, o);
+  o.n = 1, o.container = JAM_CONTAINER_CONE, o.walls = 4, o.overlap = JAM_OVERLAP_ALLOW;
+  for (o.packing_fraction = 0.54; o.packing_fraction < 0.5437; o.packing_fraction += 2e-4) {
+    const jam_status status = jam_create(&o, NULL, &sys);
+    if (status == JAM_OK) jam_destroy(sys);
+    if (status != JAM_OK) assert_int_equal(status, JAM_E_UNPLACEABLE);
+  }
+}
+
 CASE(bad_containers_are_named) {
   const double tilted[] = {1, 0, 0, 0.3, 1, 0, 0, 0, 1}, brick[] = {2, 0, 0, 0, 1, 0, 0, 0, 3};
   assert_int_equal(start_with(2, NULL, JAM_CONTAINER_CYLINDER, 0, 0, 0.0), JAM_E_DIMENSION);

@@ -50,13 +50,13 @@ class Classes final : public SizeDistribution {
     const double s = inverse_integral(c, c.exponent, at.part * integral(c, c.exponent, c.high));
     return std::min(std::max(s, c.low), c.high);
   }
-  double volume_of_smallest(double u) const override {
+  double volume_of_smallest(double u, double s) const override {
     const Place at = place(u);
     double sum = 0.0;
     for (size_t k = 0; k < at.k; ++k) sum += volume_[k].share;
     const SizeClass &c = volume_[at.k];
     if (c.low == c.high) return sum + c.share * at.part;
-    return sum + c.share * integral(c, c.exponent, quantile(u)) / integral(c, c.exponent, c.high);
+    return sum + c.share * integral(c, c.exponent, s) / integral(c, c.exponent, c.high);
   }
   double mean_power() const override { return mean_power_; }
   std::vector<SingleSize> single_sizes() const override {
@@ -93,7 +93,7 @@ class CountByFormula final : public Count {
   CountByFormula(SmoothLaw::Counted counted, double low, double high)
       : law_(std::move(counted.law)), low_(law_->share(low)), all_(law_->share(high) - low_), factor_(counted.factor) {}
   double inverse(double u) const override { return law_->quantile(low_ + u * all_); }
-  double all() const override { return factor_ * all_; }
+  double all() const override { return factor_ * std::fabs(all_); }
 
  private:
   std::unique_ptr<SmoothLaw> law_;
@@ -171,7 +171,7 @@ class CutLaw final : public SizeDistribution {
       fail(JAM_E_ARGUMENT, "low %g and high %g keep a share of %.2g of the law, at least %g is needed", low, high,
            share_all_, SizeTuning::least_share_left);
     if (!by_volume) return;
-    SmoothLaw::Counted counted = law_->counted(dim);
+    SmoothLaw::Counted counted = law_->counted(dim, low);
     if (counted.law) {
       count_ = std::make_unique<CountByFormula>(std::move(counted), low, high);
     } else {
@@ -180,14 +180,17 @@ class CutLaw final : public SizeDistribution {
       count_ = std::make_unique<CountByQuadrature>(*law_, low, std::min(high, law_->quantile(1.0 - 0x1p-53)), dim);
     }
     mean_power_ = share_all_ / count_->all();
+    if (!(mean_power_ > 0.0) || std::isinf(mean_power_))
+      fail(JAM_E_ARGUMENT, "low %g and high %g: the number of spheres of this law by volume is beyond doubles", low,
+           high);
   }
   double quantile(double u) const override {
     const double s = count_ ? count_->inverse(u) : law_->quantile(share_low_ + u * share_all_);
     return std::min(std::max(s, low_), high_);
   }
-  double volume_of_smallest(double u) const override {
+  double volume_of_smallest(double u, double s) const override {
     if (!(u > 0.0 && u < 1.0)) return u > 0.0 ? 1.0 : 0.0;
-    return (law_->share(quantile(u)) - share_low_) / share_all_;
+    return (law_->share(s) - share_low_) / share_all_;
   }
   double mean_power() const override { return mean_power_; }
 

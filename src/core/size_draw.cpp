@@ -105,16 +105,17 @@ class Drawing {
       out[k] = law_.quantile(std::min(rng.uniform() + 0x1p-54, 1.0 - 0x1p-53));
   }
   // Each sphere has the mean volume of its share of the number: the sums of volume at the ends of the shares are those
-  // of the law.
+  // of the law. Rounding of these sums takes no sphere beyond the ends of its share.
   void volume_quantiles(std::vector<double> &out) const {
     const double n = static_cast<double>(out.size());
-    double below = 0.0;
+    double below = 0.0, least = law_.quantile(0.0);
     for (size_t k = 0; k < out.size(); ++k) {
       if (k % 1024 == 0) CallScope::look();
-      const double u = static_cast<double>(k + 1) / n, next = k + 1 == out.size() ? 1.0 : law_.volume_of_smallest(u);
-      const double power = (next - below) * n * law_.mean_power();
-      out[k] = math::pow(power, 1.0 / dim_);
-      below = next;
+      const double u = static_cast<double>(k + 1) / n, most = std::max(least, law_.quantile(u));
+      const double next = k + 1 == out.size() ? 1.0 : law_.volume_of_smallest(u, most);
+      const double power = std::max(0.0, (next - below) * n * law_.mean_power());
+      out[k] = std::min(std::max(math::pow(power, 1.0 / dim_), least), most);
+      below = next, least = most;
     }
   }
   std::vector<double> random_filling(double wanted) const {

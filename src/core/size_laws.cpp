@@ -25,7 +25,7 @@ class Normal final : public SmoothLaw {
   double mean_, deviation_;
 };
 
-// ln s is normal with mean mu and deviation w.
+// ln s is normal with mean mu and deviation w. With a negative w shares count from above.
 class LogNormal final : public SmoothLaw {
  public:
   LogNormal(double mu, double w) : mu_(mu), w_(w) {}
@@ -35,9 +35,11 @@ class LogNormal final : public SmoothLaw {
   }
   double share(double s) const override { return math::normal_share((math::log(s) - mu_) / w_); }
   double quantile(double u) const override { return math::exp(mu_ + w_ * math::normal_quantile(u)); }
-  // Hatch and Choate, J. Franklin Inst. 207, 369 (1929).
-  Counted counted(int dim) const override {
-    return {std::make_unique<LogNormal>(mu_ - dim * w_ * w_, w_), math::exp(0.5 * dim * dim * w_ * w_ - dim * mu_)};
+  // Hatch and Choate, J. Franklin Inst. 207, 369 (1929). Above the mean, shares from above keep their digits.
+  Counted counted(int dim, double low) const override {
+    const double mu = mu_ - dim * w_ * w_;
+    return {std::make_unique<LogNormal>(mu, low > math::exp(mu) ? -w_ : w_),
+            math::exp(0.5 * dim * dim * w_ * w_ - dim * mu_)};
   }
 
  private:

@@ -21,9 +21,9 @@ class SizeDistribution {
   virtual ~SizeDistribution() = default;
   // The diameter below which a share u of the spheres lies, by number.
   virtual double quantile(double u) const = 0;
-  // Of laws by volume alone: the share of volume that the smallest spheres have, a share u of the number, and the mean
-  // of s^d by number.
-  virtual double volume_of_smallest(double) const { return 0.0; }
+  // Of laws by volume alone: the share of volume that the smallest spheres have, a share u of the number, up to the
+  // diameter s = quantile(u); and the mean of s^d by number.
+  virtual double volume_of_smallest(double, double) const { return 0.0; }
   virtual double mean_power() const { return 0.0; }
   bool by_volume() const { return mean_power() > 0.0; }
   virtual std::vector<SingleSize> single_sizes() const { return {}; }  // no diameter between two is one of the law
@@ -44,12 +44,13 @@ class SmoothLaw {
   virtual double share(double s) const = 0;     // below s
   virtual double quantile(double u) const = 0;  // its inverse
   // The law by number that belongs to it as a law by volume, where a formula gives it: the number of spheres between a
-  // and b, in units of volume, is factor times the share of `law` there.
+  // and b, in units of volume, is factor times the share of `law` there. From `low` on: its shares may count from
+  // above.
   struct Counted {
     std::unique_ptr<SmoothLaw> law;
     double factor = 0.0;
   };
-  virtual Counted counted(int) const { return {}; }
+  virtual Counted counted(int, double) const { return {}; }
 };
 // The part of a law between low and high, 0 and infinity where it is not cut. Throws JAM_E_ARGUMENT where nearly
 // nothing is left, and where volume without a lower cut and without a formula would mean fines without end.

@@ -101,6 +101,40 @@ CASE(density_is_exact_and_n_follows) {
       }
 }
 
+/* Quantiles ascend, and lie in the range of the law, however narrow it is. */
+CASE(quantiles_by_volume_ascend_in_their_range) {
+  static const double widths[] = {1e-6, 1e-4, 1e-3, 0.01, 3.0};
+  for (int law = 0; law < 2; ++law)
+    for (size_t q = 0; q < sizeof widths / sizeof *widths; ++q) {
+      jam_diameters_options o = options(law ? JAM_SIZES_LOGNORMAL : JAM_SIZES_UNIFORM);
+      size_t n;
+      o.n = 100000, o.share = JAM_SHARE_VOLUME, o.low = 1.0, o.high = 1.0 + widths[q];
+      if (law) o.mean = 1.0, o.deviation = widths[q], o.low = 1.0 - widths[q] / 4.0, o.high = INFINITY;
+      double *s = draw(&o, NULL, 0, &n);
+      assert_true(s[0] >= o.low && s[n - 1] <= o.high);
+      for (size_t k = 1; k < n; ++k) assert_true(s[k] >= s[k - 1]);
+      free(s);
+    }
+}
+
+/* A law that is cut far from its mean is the law still, or is refused by name: never one size. */
+CASE(laws_by_volume_may_be_cut_far_from_the_mean) {
+  for (double deviation = 3.0; deviation < 60.0; deviation *= 1.3) {
+    jam_diameters_options o = options(JAM_SIZES_LOGNORMAL);
+    size_t n;
+    o.n = 1000, o.share = JAM_SHARE_VOLUME, o.mean = 1.0, o.deviation = deviation, o.low = 0.1, o.high = 10.0;
+    double *s = draw(&o, NULL, 0, &n), number = 0.0, all = 0.0;
+    /* The mean of s^3: by volume, ln s has the density exp(-(x - mu)^2 / 2 w^2); by number s^-3 times that. */
+    const double w2 = log1p(deviation * deviation), mu = -0.5 * w2, a = log(0.1), b = log(10.0);
+    for (int k = 0; k < 100000; ++k) {
+      const double x = a + (b - a) * (k + 0.5) / 1e5, f = exp(-(x - mu) * (x - mu) / (2.0 * w2));
+      all += f, number += f * exp(-3.0 * x);
+    }
+    assert_float_equal(volume(s, n, 3) / (acos(-1.0) / 6.0 * 1000.0), all / number, 1e-4 * all / number);
+    free(s);
+  }
+}
+
 /* A list keeps its sizes too, whatever the density asked for. */
 CASE(few_sizes_stay_whole) {
   const double rows[] = {1.0, 0.5, 1.7, 0.3, 2.5, 0.2};

@@ -144,8 +144,10 @@ Modes bloch_modes(const RigidityMatrix &g, const ContactWeights &w, const CellsB
   std::vector<double> lambda;
   {
     const auto look = [](double share) { return CallScope::report_share(0, share), false; };
-    // Eigenvalues alone are those of a verdict.
-    (vectors ? dense_eigen : dense_eigen_builtin)(h.size(), h.entries(), lambda, vectors, look);
+    if (vectors)
+      dense_eigen(h.size(), h.entries(), lambda, look);
+    else  // of a verdict
+      dense_eigen_builtin(h.size(), h.entries(), lambda, false, look);
   }
   Modes out;
   const bool twice = h.size() > n;

@@ -224,7 +224,7 @@ jam_status all_modes(const BlockMatrix &h, Monitor &monitor, Modes &out) {
     p.fraction = fraction;
     return monitor.report(p, fraction == 0.0);
   };
-  if (!dense_eigen(n, a, out.lambda, true, stop)) return JAM_CANCELLED;
+  if (!dense_eigen(n, a, out.lambda, stop)) return JAM_CANCELLED;
   out.vector = std::move(a);
   return JAM_OK;
 }

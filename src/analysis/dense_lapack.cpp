@@ -2,6 +2,7 @@
 // back transformation go panel by panel, as dsytrd and dormtr do inside, so that they can be cancelled; dstedc is one
 // call.
 #include <algorithm>
+#include <limits>
 #include "analysis/modes.hpp"
 #include "core/error.hpp"
 #include "linalg/blas.hpp"
@@ -14,7 +15,6 @@ void dsyr2k_(const char *uplo, const char *trans, const int *n, const int *k, co
 void dsytd2_(const char *uplo, const int *n, double *a, const int *lda, double *d, double *e, double *tau, int *info);
 void dstedc_(const char *compz, const int *n, double *d, double *e, double *z, const int *ldz, double *work,
              const int *lwork, int *iwork, const int *liwork, int *info);
-void dsterf_(const int *n, double *d, double *e, int *info);
 void dormtr_(const char *side, const char *uplo, const char *trans, const int *m, const int *n, const double *a,
              const int *lda, const double *tau, double *c, const int *ldc, double *work, const int *lwork, int *info);
 }
@@ -47,8 +47,9 @@ bool tridiagonalise(int n, std::vector<double> &a, double *d, double *e, double 
 
 }  // namespace
 
-bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
-                 const std::function<bool(double)> &stop) {
+bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, const std::function<bool(double)> &stop) {
+  const double numbers = 1.0 + 4.0 * n + static_cast<double>(n) * n;  // that dstedc works with
+  if (numbers > std::numeric_limits<int>::max()) return dense_eigen_builtin(n, a, lambda, true, stop);
   const BlasSingleThread single;
   lambda = lapack_array(static_cast<size_t>(n));
   if (n == 0) return true;
@@ -59,11 +60,6 @@ bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, boo
   if (stop(0.0) || !tridiagonalise(n, a, lambda.data(), e.data(), tau.data(), stop) ||
       stop(DenseTuning::lapack_reduction))
     return false;
-  if (!vectors) {
-    dsterf_(&n, lambda.data(), e.data(), &info);
-    if (info != 0) fail(JAM_E_SOLVER, "dsterf gave info %d: the spectrum did not converge", info);
-    return true;
-  }
   std::vector<double> z = lapack_array(static_cast<size_t>(n) * n);
   {
     double size = 0.0;

@@ -3,9 +3,8 @@
 
 namespace jam::inside {
 
-bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
-                 const std::function<bool(double)> &stop) {
-  return dense_eigen_builtin(n, a, lambda, vectors, stop);
+bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, const std::function<bool(double)> &stop) {
+  return dense_eigen_builtin(n, a, lambda, true, stop);
 }
 
 }  // namespace jam::inside

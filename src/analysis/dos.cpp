@@ -31,6 +31,7 @@ double largest_eigenvalue(const RigidityMatrix &g, const BlockMatrix &h) {
   for (double &v : x) v = rng.normal();
   double lambda = 0.0, residual = 0.0;
   for (int pass = 0; pass < 60; ++pass) {
+    CallScope::look();
     g.remove_symmetries(x.data());
     const double length = std::sqrt(dot(x, x));
     if (!(length > 0.0)) return 0.0;
@@ -163,6 +164,7 @@ DensityOfStates density_of_states(const RigidityMatrix &g, const ContactWeights 
     for (size_t m = moments; m-- > 0;) mu[m] *= jackson(m, moments) / mu[0];
     double before = share_below(mu, span, first);
     for (size_t k = 0; k < points; ++k) {
+      CallScope::look();
       const double below = share_below(mu, span, out.omega[k] + 0.5 * out.step);
       density.add(k, (below - before) / out.step);  // mean over the bin, however wide
       cumulative.add(k, below);

@@ -6,6 +6,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/call_scope.hpp"
@@ -62,9 +63,6 @@ class Operator {
     apply_(work_.data(), y);
     project(y);
   }
-  std::vector<double> found;  // vectors to project out, one after the other
-
- private:
   void project(double *x) const {
     g_.remove_symmetries(x);
     if (found.empty()) return;
@@ -74,6 +72,9 @@ class Operator {
     const Eigen::VectorXd along = f.transpose() * v;
     v.noalias() -= f * along;
   }
+  std::vector<double> found;  // vectors to project out, one after the other
+
+ private:
   const RigidityMatrix &g_;
   std::function<void(const double *, double *)> apply_;
   mutable std::vector<double> work_;
@@ -85,15 +86,32 @@ struct Found {
   Eigen::MatrixXd vector;
 };
 
+Eigen::VectorXd random_vector(const Operator &op) {
+  Eigen::VectorXd out(op.rows());
+  Rng rng(1, Stream::analysis_start, static_cast<uint64_t>(op.found.size()));
+  for (double &x : out) x = rng.normal();
+  return out;
+}
+
+// Whether `op` inverts h - shift to within `error`, and no mode is nearer to the shift than that: rounding of its part
+// would hide all others. By two steps of inverse iteration.
+bool inverts(const Operator &op, const BlockMatrix &h, double shift, double error) {
+  Eigen::VectorXd x = random_vector(op), y(op.rows()), left(op.rows());
+  op.perform_op(x.data(), y.data());
+  x = y.normalized();
+  op.perform_op(x.data(), y.data());
+  h.multiply(y.data(), left.data());
+  left -= shift * y + x;
+  op.project(left.data());
+  return left.norm() < error * y.norm() && y.norm() * error < 1.0;
+}
+
 Found lanczos(Operator &op, int64_t count, Spectra::SortRule rule, double tolerance, int iterations) {
   const Eigen::Index n = op.rows(), nev = std::min<Eigen::Index>(count, n - 1);
   const Eigen::Index ncv = std::min<Eigen::Index>(n, std::max<Eigen::Index>(2 * nev, nev + 20));
   Spectra::SymEigsSolver<Operator> solver(op, nev, ncv);
-  Eigen::VectorXd start(n);
-  Rng rng(1, Stream::analysis_start, static_cast<uint64_t>(op.found.size()));
-  for (Eigen::Index k = 0; k < n; ++k) start[k] = rng.normal();
   try {
-    solver.init(start.data());
+    solver.init(random_vector(op).data());
     solver.compute(rule, iterations, tolerance, rule);
   } catch (const Cancelled &) {
     throw;
@@ -112,16 +130,16 @@ void append(Operator &op, std::vector<double> &theta, const Found &f) {
 
 // A Krylov sequence finds one vector of a degenerate eigenspace, and more only by rounding. So the search is repeated
 // with the found vectors projected out, until the best new one is worse than all that are kept.
-bool search(Operator &op, int64_t count, Spectra::SortRule rule, double tolerance, std::vector<double> &theta) {
+void search(Operator &op, int64_t count, Spectra::SortRule rule, double tolerance, std::vector<double> &theta) {
   auto rank = [&](double t) { return rule == Spectra::SortRule::LargestMagn ? std::fabs(t) : t; };
   append(op, theta, lanczos(op, count, rule, tolerance, ModesTuning::restarts));
-  const bool complete = static_cast<int64_t>(theta.size()) >= count;
   const auto all = static_cast<int64_t>(op.rows());
   for (int round = 0; round < ModesTuning::probes && static_cast<int64_t>(theta.size()) + 4 < all && !theta.empty();
        ++round) {
     std::vector<double> sorted(theta);
     std::sort(sorted.begin(), sorted.end(), [&](double x, double y) { return rank(x) > rank(y); });
-    const double last = rank(sorted[std::min<size_t>(sorted.size(), static_cast<size_t>(count)) - 1]);
+    const bool some = static_cast<int64_t>(sorted.size()) >= count;  // else any mode is wanted
+    const double last = some ? rank(sorted[static_cast<size_t>(count) - 1]) : -std::numeric_limits<double>::infinity();
     const Found probe = lanczos(op, 2, rule, ModesTuning::probe_tolerance, ModesTuning::probe_restarts);
     if (probe.value.size() == 0 || rank(probe.value[0]) < last * (1.0 - 1e-7)) break;
     const Found more =
@@ -129,80 +147,100 @@ bool search(Operator &op, int64_t count, Spectra::SortRule rule, double toleranc
     if (more.value.size() == 0 || rank(more.value[0]) <= last * (1.0 + 1e-12)) break;
     append(op, theta, more);
   }
-  return complete;
 }
 
-// Keeps the `count` best, makes them orthonormal and gives them their Rayleigh quotients.
-void harvest(const RigidityMatrix &g, const ContactWeights &w, Operator &op, std::vector<double> theta, bool magnitude,
-             int64_t count, Modes &out) {
-  const size_t n = g.unknowns();
-  std::vector<size_t> order(theta.size());
+// Makes the vectors orthonormal, those of least distance first, and keeps `count` that are modes: a residual of the
+// root of the tolerance leaves an error of the tolerance in the Rayleigh quotient.
+void harvest(const RigidityMatrix &g, const ContactWeights &w, const BlockMatrix &h, const Operator &op,
+             const std::vector<double> &distance, size_t count, double tolerance, Modes &out) {
+  const auto n = static_cast<Eigen::Index>(g.unknowns());
+  std::vector<size_t> order(distance.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t x, size_t y) {
-    return magnitude ? std::fabs(theta[x]) > std::fabs(theta[y]) : theta[x] > theta[y];
-  });
-  if (order.size() > static_cast<size_t>(count)) order.resize(static_cast<size_t>(count));
-  Eigen::MatrixXd v(n, order.size());
-  for (size_t k = 0; k < order.size(); ++k) {
-    auto col = v.col(static_cast<Eigen::Index>(k));
-    col = Eigen::Map<const Eigen::VectorXd>(&op.found[order[k] * n], static_cast<Eigen::Index>(n));
+  std::stable_sort(order.begin(), order.end(), [&](size_t x, size_t y) { return distance[x] < distance[y]; });
+  Eigen::MatrixXd v(n, static_cast<Eigen::Index>(std::min(count, order.size())));
+  Eigen::VectorXd left(n);
+  std::vector<std::pair<double, Eigen::Index>> lambda;
+  for (size_t at = 0; at < order.size() && lambda.size() < count; ++at) {
+    const auto k = static_cast<Eigen::Index>(lambda.size());
+    auto col = v.col(k);
+    col = Eigen::Map<const Eigen::VectorXd>(&op.found[order[at] * g.unknowns()], n);
     for (int twice = 0; twice < 2; ++twice)
       if (k > 0) {
-        const Eigen::VectorXd along = v.leftCols(static_cast<Eigen::Index>(k)).transpose() * col;
-        col -= v.leftCols(static_cast<Eigen::Index>(k)) * along;
+        const Eigen::VectorXd along = v.leftCols(k).transpose() * col;
+        col -= v.leftCols(k) * along;
       }
     g.remove_symmetries(col.data());
     col.normalize();
+    const double l = curvature(g, w, col.data());
+    h.multiply(col.data(), left.data());
+    if ((left - l * col).norm() <= std::sqrt(tolerance) * h.norm_bound()) lambda.push_back({l, k});
   }
-  std::vector<std::pair<double, size_t>> lambda;
-  for (size_t k = 0; k < order.size(); ++k)
-    lambda.push_back({curvature(g, w, v.col(static_cast<Eigen::Index>(k)).data()), k});
   std::sort(lambda.begin(), lambda.end());
   for (const auto &[l, k] : lambda) {
     out.lambda.push_back(l);
-    const double *x = v.col(static_cast<Eigen::Index>(k)).data();
-    out.vector.insert(out.vector.end(), x, x + n);
+    out.vector.insert(out.vector.end(), v.col(k).data(), v.col(k).data() + n);
   }
+}
+
+using Ldlt = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+Operator inverse(const RigidityMatrix &g, const Ldlt &ldlt) {
+  return {g, [&](const double *x, double *y) {
+            const auto n = static_cast<Eigen::Index>(g.unknowns());
+            Eigen::Map<Eigen::VectorXd>(y, n) = ldlt.solve(Eigen::Map<const Eigen::VectorXd>(x, n));
+          }};
+}
+
+// The shift for modes near `target`, and the factor there: a step away where the target is a mode, or where a pivot
+// that vanishes spoils the factor.
+double factorise_near(const RigidityMatrix &g, const BlockMatrix &h, double target, Ldlt &ldlt) {
+  const double numbers =
+      static_cast<double>(BlockCholesky::measure(h.dim, h.nodes, h.ei.data(), h.ej.data(), h.ei.size(), 1).factor);
+  CallScope::need_memory(ModesTuning::sparse_bytes * (numbers + 2.0 * static_cast<double>(csr_entries(h))),
+                         "the numbers of a factorised matrix");
+  const CsrMatrix csr = to_csr(h);
+  const auto n = static_cast<Eigen::Index>(g.unknowns());
+  const Eigen::SparseMatrix<double> a = Eigen::Map<const Eigen::SparseMatrix<double>>(
+      n, n, static_cast<Eigen::Index>(csr.value.size()), csr.start.data(), csr.column.data(), csr.value.data());
+  ldlt.analyzePattern(a);
+  const Operator op = inverse(g, ldlt);
+  const double step = ModesTuning::near_shift * h.norm_bound();
+  for (double away = 0.0; away < ModesTuning::farthest_shift * step; away = std::max(step, 2.0 * away)) {
+    CallScope::report_share();
+    ldlt.setShift(-(target + away));
+    ldlt.factorize(a);
+    if (ldlt.info() == Eigen::Success && inverts(op, h, target + away, step)) return target + away;
+  }
+  fail(JAM_E_SOLVER, "frequency %g hits an eigenvalue; change it a little", std::sqrt(target));
 }
 
 jam_status few_modes(const RigidityMatrix &g, const ContactWeights &w, const BlockMatrix &h, const jam_modes_options &o,
                      Modes &out) {
-  const size_t n = g.unknowns();
-  std::vector<double> theta;
-  bool complete = false;
-  auto run = [&](std::function<void(const double *, double *)> apply, Spectra::SortRule rule) {
-    Operator op(g, std::move(apply));
-    complete = search(op, o.count, rule, o.tolerance, theta);
-    harvest(g, w, op, theta, rule == Spectra::SortRule::LargestMagn, o.count, out);
+  const size_t n = g.unknowns(), most = n - static_cast<size_t>(g.symmetries());
+  auto run = [&](Operator op, Spectra::SortRule rule, const std::function<double(double)> &distance) {
+    std::vector<double> theta;
+    search(op, o.count, rule, o.tolerance, theta);
+    std::transform(theta.begin(), theta.end(), theta.begin(), distance);
+    harvest(g, w, h, op, theta, static_cast<size_t>(o.count), o.tolerance, out);
   };
+  const auto minus = [](double t) { return -t; };
   if (o.which == JAM_MODES_LOWEST) {
     ShiftedFactor factor(h);
     factor.factorise_from(1e-9 * h.norm_bound());
-    run(
-        [&](const double *x, double *y) {
-          std::copy(x, x + n, y);
-          factor.solve(y);
-        },
-        Spectra::SortRule::LargestAlge);
+    run({g,
+         [&](const double *x, double *y) {
+           std::copy(x, x + n, y);
+           factor.solve(y);
+         }},
+        Spectra::SortRule::LargestAlge, minus);
   } else if (o.which == JAM_MODES_HIGHEST) {
-    run([&](const double *x, double *y) { h.multiply(x, y); }, Spectra::SortRule::LargestAlge);
+    run({g, [&](const double *x, double *y) { h.multiply(x, y); }}, Spectra::SortRule::LargestAlge, minus);
   } else {
-    const CsrMatrix csr = to_csr(h);
-    const auto rows = static_cast<Eigen::Index>(n);
-    const Eigen::SparseMatrix<double> a = Eigen::Map<const Eigen::SparseMatrix<double>>(
-        rows, rows, static_cast<Eigen::Index>(csr.value.size()), csr.start.data(), csr.column.data(), csr.value.data());
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
-    ldlt.setShift(-o.frequency * o.frequency);
-    ldlt.compute(a);
-    if (ldlt.info() != Eigen::Success)
-      fail(JAM_E_SOLVER, "frequency %g hits an eigenvalue; change it a little", o.frequency);
-    run(
-        [&](const double *x, double *y) {
-          Eigen::Map<Eigen::VectorXd>(y, rows) = ldlt.solve(Eigen::Map<const Eigen::VectorXd>(x, rows));
-        },
-        Spectra::SortRule::LargestMagn);
+    Ldlt ldlt;
+    const double target = o.frequency * o.frequency, away = factorise_near(g, h, target, ldlt) - target;
+    run(inverse(g, ldlt), Spectra::SortRule::LargestMagn, [&](double t) { return std::fabs(away + 1.0 / t); });
   }
-  return complete ? JAM_OK : JAM_NOT_CONVERGED;
+  return out.lambda.size() >= std::min(static_cast<size_t>(o.count), most) ? JAM_OK : JAM_NOT_CONVERGED;
 }
 
 }  // namespace

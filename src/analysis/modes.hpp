@@ -30,12 +30,12 @@ inline std::vector<double> lapack_array(size_t count) {
   out.resize(count);
   return out;
 }
-// All eigenvalues (and vectors) of a dense symmetric matrix, whose lower triangle a (a lapack_array) gives
-// column-major; the vectors overwrite it. `stop` is asked between stages. False when stopped. By LAPACK where the build
-// has it (JAM_LAPACK): its bits depend on the processor.
-bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
-                 const std::function<bool(double)> &stop);
-// The same by own loops: for eigenvalues that decide something. With all vectors it takes longer than LAPACK.
+// All eigenvalues and vectors of a dense symmetric matrix, whose lower triangle a (a lapack_array) gives column-major;
+// the vectors overwrite it. `stop` is asked between stages. False when stopped. By LAPACK where the build has it
+// (JAM_LAPACK) and an int can count its workspace: its bits depend on the processor.
+bool dense_eigen(int n, std::vector<double> &a, std::vector<double> &lambda, const std::function<bool(double)> &stop);
+// The same by own loops, or the eigenvalues alone: for those that decide something. With vectors it takes longer than
+// LAPACK.
 bool dense_eigen_builtin(int n, std::vector<double> &a, std::vector<double> &lambda, bool vectors,
                          const std::function<bool(double)> &stop);
 // dense_builtin.cpp: eigenvalues and vectors of the whole Hessian; JAM_CANCELLED when stopped.

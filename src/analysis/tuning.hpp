@@ -12,7 +12,11 @@ struct ModesTuning {
   static constexpr double dense_share = 0.25;
   static constexpr double dense_bytes = 24.0, krylov_vectors = 20.0;  // memory: a matrix entry; beside three a mode
   static constexpr double real_wave_bytes = 40.0;  // a matrix entry with the vectors at a real wave vector
+  static constexpr double sparse_bytes = 12.0;     // an entry of a sparse matrix, with its row
   static constexpr int restarts = 300;             // of Lanczos
+  // Over the norm: no mode is nearer to a shift, and its factor is that of a matrix this near. A shift moves by this
+  // and by its doubles, up to so many times.
+  static constexpr double near_shift = 1e-9, farthest_shift = 1e3;
   // Modes of one frequency are found one after the other: a probe of this tolerance from a new start asks whether one
   // was missed.
   static constexpr int probes = 200, probe_restarts = 20, at_once = 6;

@@ -4,6 +4,7 @@
 
 #include "analysis/modes.hpp"
 #include "capi/analysis.hpp"
+#include "core/call_scope.hpp"
 #include "core/limits.hpp"
 
 using namespace jam::inside;
@@ -70,6 +71,7 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     const jam_hessian_options options = take_hessian_options(h);
     jam_modes_options full = default_modes_options();
     take_options(o, full);
+    full.memory_limit = std::min(full.memory_limit, CallScope::memory_limit());
     need_network(sys);
     const RigidityMatrix g = make_rigidity_matrix(sys->packing, sys->contacts);
     check_modes_options(full, g);
@@ -85,6 +87,7 @@ jam_status jam_modes(jam_system *sys, const jam_hessian_options *h, const jam_mo
     if (status == JAM_CANCELLED) return status;
     put_output(modes.vector, vector, m * n);
     made.give(m, [&](size_t k, auto &row) {
+      if (k >= modes.lambda.size()) return;
       row[JAM_MODE_LAMBDA] = modes.lambda[k];
       row[JAM_MODE_PARTICIPATION] = modes.participation[k];
     });

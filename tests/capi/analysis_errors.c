@@ -80,6 +80,46 @@ CASE(few_spheres_have_a_density_of_states) {
   }
 }
 
+/* A tolerance below rounding: what does not converge is NaN, and nothing else. */
+CASE(modes_that_do_not_converge_are_unknown) {
+  for (int cells = 13; cells < 37; cells += 3) {
+    OWNED jam_system *s = square_lattice(cells);
+    DEFAULTS(modes, o);
+    double table[5 * JAM_MODE_COLUMNS];
+    size_t m, known = 0;
+    o.which = JAM_MODES_HIGHEST, o.tolerance = 1e-17, o.count = 3;
+    assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_NOT_JAMMED);
+    const jam_status status = jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, table, 6, NULL, 0, &m);
+    assert_true(status == JAM_OK || status == JAM_NOT_CONVERGED);
+    assert_int_equal(m, 3);
+    for (size_t k = 0; k < m; ++k) {
+      const double *row = table + k * JAM_MODE_COLUMNS;
+      assert_int_equal(isnan(row[JAM_MODE_LAMBDA]), isnan(row[JAM_MODE_PARTICIPATION]));
+      if (isnan(row[JAM_MODE_LAMBDA])) continue;
+      ++known;
+      assert_true(row[JAM_MODE_LAMBDA] > 3.9 && row[JAM_MODE_LAMBDA] < 4.0 + 1e-9);
+      assert_true(row[JAM_MODE_PARTICIPATION] > 0.9 / (cells * cells) && row[JAM_MODE_PARTICIPATION] <= 1.0);
+    }
+    assert_int_equal(status == JAM_OK, known == m);
+  }
+}
+
+/* The memory of the handle, where an option allows more. */
+CASE(the_memory_of_the_handle_limits_modes) {
+  OWNED jam_system *s = square_lattice(20);
+  DEFAULTS(modes, o);
+  double table[800 * JAM_MODE_COLUMNS];
+  size_t m;
+  assert_int_equal(jam_contacts_from_geometry(s, NULL, NULL), JAM_NOT_JAMMED);
+  o.count = 3, o.frequency = 1.1;
+  for (o.which = JAM_MODES_LOWEST; o.which <= JAM_MODES_ALL; ++o.which) {
+    assert_int_equal(jam_set_memory_limit(s, 1e9), JAM_OK);
+    assert_int_equal(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, table, 1600, NULL, 0, &m), JAM_OK);
+    assert_int_equal(jam_set_memory_limit(s, o.which == JAM_MODES_HIGHEST ? 1e5 : 3e5), JAM_OK);
+    SAYS(jam_modes(s, NULL, &o, JAM_MODE_COLUMNS, table, 1600, NULL, 0, &m), JAM_E_MEMORY, "B");
+  }
+}
+
 CASE(bad_arguments_are_refused) {
   OWNED jam_system *s = square_lattice(4), *t = random_spheres(3, 50, 0.0, 1);
   jam_comparison_report c = {.struct_size = sizeof(jam_comparison_report)};

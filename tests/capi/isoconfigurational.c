@@ -265,6 +265,10 @@ CASE(bad_input_is_named) {
   o = options(), o.memory_limit = 1e4;
   SAYS(runs_of(sys, &o, NULL), JAM_E_MEMORY, "are needed");
   o = options();
+  assert_int_equal(jam_set_memory_limit(sys, 1e4), JAM_OK);
+  SAYS(runs_of(sys, &o, NULL), JAM_E_MEMORY, "are needed");
+  assert_int_equal(jam_set_memory_limit(sys, 1e9), JAM_OK);
+  o = options();
   assert_int_equal(jam_isoconf(sys, &o, NULL, falling, 2, NULL, 0, NULL), JAM_E_ARGUMENT);
   DEFAULTS(monte_carlo, m);
   m.alpha = 2.0;

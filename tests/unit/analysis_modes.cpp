@@ -133,6 +133,31 @@ void few_of(const Vectors &basis, const std::vector<std::vector<int>> &bonds, in
   assert_true(worst(found, all) < 1e-10);
 }
 
+// Modes nearest to a frequency that is one of a mode, that its neighbours with others share, or that makes a pivot
+// vanish.
+CASE(modes_near_the_frequency_of_a_mode) {
+  Case c = lattice(triangular_basis(), triangular_bonds(), 16);
+  const double pivot = std::sqrt(make_hessian(solve(c, JAM_MODES_ALL, 1).g, solve(c, JAM_MODES_ALL, 1).w).diag[0]);
+  Rng rng(3, Stream::analysis_start);
+  for (const double disorder : {0.0, 0.4}) {
+    for (double &k : c.packing.position) k += 0.05 * disorder * rng.normal();
+    const std::vector<double> all = solve(c, JAM_MODES_ALL, 1).modes.lambda;
+    for (const double frequency :
+         {pivot, std::sqrt(all[5]), std::sqrt(all[100]), std::sqrt(all[300]), std::sqrt(all[511])}) {
+      const double target = frequency * frequency;
+      const Solved near = solve(c, JAM_MODES_NEAR, 5, frequency);
+      assert_int_equal(near.status, JAM_OK);
+      assert_true(mode_error(near) < 1e-7);
+      std::vector<double> found, best;
+      for (const double l : near.modes.lambda) found.push_back(std::fabs(l - target));
+      for (size_t k = 2; k < all.size(); ++k) best.push_back(std::fabs(all[k] - target));
+      std::sort(found.begin(), found.end()), std::sort(best.begin(), best.end());
+      best.resize(5);
+      assert_true(worst(found, best) < 1e-8);
+    }
+  }
+}
+
 CASE(few_modes_of_the_triangular_lattice) { few_of(triangular_basis(), triangular_bonds(), 16, 20); }
 CASE(few_modes_of_fcc) { few_of(fcc_basis(), fcc_bonds(), 6, 15); }
 
@@ -196,20 +221,23 @@ CASE(spectra_of_both_products) {
   }
   const Solved s = solve(c, JAM_MODES_ALL, 1);
   const std::vector<double> &small = s.modes.lambda;
-  for (const auto eigen : {dense_eigen, dense_eigen_builtin}) {
-    for (const bool vectors : {false, true}) {
-      std::vector<double> v = a, big;
-      assert_true(eigen(m, v, big, vectors, [](double) { return false; }));
-      const size_t extra = big.size() - small.size();
-      for (size_t k = 0; k < extra; ++k) assert_true(std::fabs(big[k]) < 1e-12);
-      assert_true(worst({big.begin() + static_cast<std::ptrdiff_t>(extra), big.end()}, small) < 1e-12);
-      for (int k = 0; vectors && k < m; ++k)  // A v = lambda v
-        for (int i = 0; i < m; ++i) {
-          double rest = -big[k] * v[static_cast<size_t>(k) * m + i];
-          for (int j = 0; j < m; ++j) rest += a[static_cast<size_t>(j) * m + i] * v[static_cast<size_t>(k) * m + j];
-          assert_true(std::fabs(rest) < 1e-12);
-        }
-    }
+  const auto no_stop = [](double) { return false; };
+  const std::function<bool(int, std::vector<double> &, std::vector<double> &)> solvers[] = {
+      [&](int n, auto &v, auto &lambda) { return dense_eigen(n, v, lambda, no_stop); },
+      [&](int n, auto &v, auto &lambda) { return dense_eigen_builtin(n, v, lambda, true, no_stop); },
+      [&](int n, auto &v, auto &lambda) { return dense_eigen_builtin(n, v, lambda, false, no_stop); }};
+  for (int which = 0; which < 3; ++which) {
+    std::vector<double> v = a, big;
+    assert_true(solvers[which](m, v, big));
+    const size_t extra = big.size() - small.size();
+    for (size_t k = 0; k < extra; ++k) assert_true(std::fabs(big[k]) < 1e-12);
+    assert_true(worst({big.begin() + static_cast<std::ptrdiff_t>(extra), big.end()}, small) < 1e-12);
+    for (int k = 0; which < 2 && k < m; ++k)  // A v = lambda v
+      for (int i = 0; i < m; ++i) {
+        double rest = -big[k] * v[static_cast<size_t>(k) * m + i];
+        for (int j = 0; j < m; ++j) rest += a[static_cast<size_t>(j) * m + i] * v[static_cast<size_t>(k) * m + j];
+        assert_true(std::fabs(rest) < 1e-12);
+      }
   }
 }
 

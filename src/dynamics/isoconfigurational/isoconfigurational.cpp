@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "core/call_scope.hpp"
 #include "core/limits.hpp"
 #include "core/rng.hpp"
 #include "dynamics/tuning.hpp"
@@ -82,10 +83,11 @@ void Isoconfigurational::check_memory() const {
   const double sums = 8.0 * m * spheres * (2.0 * d + 2.0) * (blocks + 1.0);
   const double sets = 8.0 * spheres * d * static_cast<double>(o.runs) * static_cast<double>(kept_instants_.size());
   const double records = 8.0 * m * spheres * d * static_cast<double>(o.threads > 1 ? EnsembleTuning::runs_ahead : 1);
-  if (sums + sets + records > o.memory_limit)
+  const double limit = std::min(o.memory_limit, CallScope::memory_limit());
+  if (sums + sets + records > limit)
     fail(JAM_E_MEMORY, "%s are needed (sums of %g blocks %s, displacement sets %s), memory_limit is %s",
          bytes_text(sums + sets + records).c_str(), blocks, bytes_text(sums).c_str(), bytes_text(sets).c_str(),
-         bytes_text(o.memory_limit).c_str());
+         bytes_text(limit).c_str());
 }
 
 // Positions are doubles, so a contact is closed to a few 1e-16 of the box. Gaps opened by less than some hundred times

@@ -1126,16 +1126,16 @@ typedef struct jam_decompress_report {
   uint32_t struct_size;
   int32_t stop_reason;     /* @enum jam_stop_reason */
   int32_t isostatic;       /* @bool contacts of one state of self-stress and d zero modes of the Hessian */
-  int32_t same_network;    /* 1: crunch ended with the same contacts; 0: with others; -1: not run */
+  int32_t same_network;    /* 1: crunch ended with the same contacts; 0: with others; -1: it did not end */
   double force_residual;   /* max |F_i| of stable spheres over the mean contact force */
   double energy, pressure; /* U; sum of f r over d V */
   double packing_fraction; /* of the soft packing */
   double distance;         /* estimate of ln(R / R_J) */
-  double jammed_fraction, crunch_fraction; /* estimate of phi_J; phi_J by crunch, NaN when it was not run */
+  double jammed_fraction, crunch_fraction; /* estimate of phi_J; phi_J by crunch, NaN if it did not end */
   double force_difference;                 /* largest |f_soft - f_crunch| over the mean; NaN without the same network */
   double coordination;                     /* mean number of contacts of a stable sphere */
   int64_t contacts, excess_contacts;       /* overlapping pairs of stable spheres; contacts - (d (stable - 1) + 1) */
-  int64_t common_contacts;                 /* with crunch; -1 when it was not run */
+  int64_t common_contacts;                 /* with crunch; -1 if it did not end */
   int64_t rattlers;                        /* spheres not in the network */
   int64_t steps, restored;                 /* of the decompression; steps undone because they lost the network */
   int64_t evaluations, factorisations;     /* of the forces; of the Hessian, crunch not counted */
@@ -1218,13 +1218,13 @@ typedef struct jam_shear_report {
   int32_t stop_reason; /* @enum jam_stop_reason: STRAIN at the last strain, else why before */
   int32_t rigid;       /* @bool contacts carry force at the end */
   int32_t reserved;
-  double strain;                       /* reached: amplitude at the end */
+  double strain;                       /* reached: amplitude at the end; NaN, as energy, without a first minimum */
   double stress, pressure;             /* at the end, as in the history */
   double energy, packing_fraction;     /* U; of the diameters, hard spheres: phi_J */
   double first_event;                  /* strain before the first event, known to the resolution; NaN: none */
   double peak_stress, peak_strain;     /* largest |stress| of all rows, with its sign, and where */
   int64_t events, steps;               /* plastic events; minima, those of located events too */
-  int64_t contacts, rattlers;          /* at the end */
+  int64_t contacts, rattlers;          /* at the end; -1 without a first minimum */
   int64_t evaluations, factorisations; /* of the forces; of matrices */
   double seconds;                      /* wall time */
 } jam_shear_report;

@@ -37,7 +37,9 @@ SoftComparison compare_with_crunch(const SoftResult &soft, Monitor &monitor, Cru
   hard = crunch(just_below_contact(soft), options, monitor);
   if (hard.status < 0)
     fail(hard.status, "crunch from below: %s", hard.text.empty() ? "out of memory" : hard.text.c_str());
-  SoftComparison v = compare_with_jammed(soft.contacts, hard.contacts, hard.report);
+  SoftComparison v;
+  if (hard.status != JAM_CANCELLED && hard.status != JAM_LIMIT)
+    v = compare_with_jammed(soft.contacts, hard.contacts, hard.report);
   v.seconds = monitor.seconds() - begun;
   return v;
 }
@@ -166,7 +168,7 @@ jam_status jam_decompress(jam_system *sys, const jam_decompress_options *o, jam_
 jam_status jam_decompress_history(const jam_system *sys, int32_t columns, double *table, size_t table_len,
                                   size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
-    if (sys->soft_history.empty()) fail(JAM_E_STATE, "there is no history: call jam_decompress first");
+    if (sys->soft_history.empty()) fail(JAM_E_STATE, "there is no history: jam_decompress has found no minimum");
     return give_table(sys->soft_history, columns, table, table_len, needed);
   });
 }
@@ -241,7 +243,7 @@ jam_status jam_shear(jam_system *sys, const jam_shear_options *o, const double *
 
 jam_status jam_shear_history(const jam_system *sys, int32_t columns, double *table, size_t table_len, size_t *needed) {
   return guard_read(sys, [&]() -> jam_status {
-    if (sys->shear_history.empty()) fail(JAM_E_STATE, "there is no history of a shear: call jam_shear first");
+    if (sys->shear_history.empty()) fail(JAM_E_STATE, "there is no history of a shear: jam_shear has found no minimum");
     return give_table(sys->shear_history, columns, table, table_len, needed);
   });
 }

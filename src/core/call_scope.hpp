@@ -104,4 +104,16 @@ class CancellableScope : public CallScope {
   CancellableScope() : CallScope(memory_limit(), monitor(), quiet(), true) {}  // in the scope of now
 };
 
+// Runs f(); false when look() has left it.
+template <class F>
+bool ends_before_cancel(F &&f) {
+  const CancellableScope scope;
+  try {
+    f();
+    return true;
+  } catch (const Cancelled &) {
+    return false;
+  }
+}
+
 }  // namespace jam::inside

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/limits.hpp"
 #include "core/math.hpp"
 #include "linalg/dot.hpp"
@@ -78,12 +79,12 @@ void check_decompress_options(const jam_decompress_options &o) {
 
 // H u = S^T (k sigma growth): contacts keep their forces' directions, and the overlaps of an isostatic network all
 // change by one factor.
-void follow_growth(SoftState &state, double growth, int64_t &factorisations) {
+void follow_growth(SoftState &state, double growth, Effort &effort) {
   const size_t d = static_cast<size_t>(state.dim());
   const SoftContacts contacts = state.contacts();
   const std::vector<char> on = stable_contacts(state, contacts);
   SoftHessian hessian;
-  if (!hessian.factorise(state, contacts, on, 0.0, factorisations)) {
+  if (!if_it_fits(effort, false, [&] { return hessian.factorise(state, contacts, on, 0.0, effort.factorisations); })) {
     state.scale_diameters(math::exp(growth));
     return;
   }
@@ -153,13 +154,18 @@ class Decompression {
     return true;
   }
 
+  bool end_as(DescentEnd end) {
+    out_.status = status_of(end, monitor_, report_.stop_reason);
+    return true;
+  }
+
   DescentEnd find_minimum(bool near_minimum, SoftResult &now, SoftRow &row) {
     const Effort spent = effort_;
     const double seconds = monitor_.seconds();
     const int64_t least = std::max<int64_t>(1, o_.max_evaluations / DecompressTuning::least_share);
     const int64_t most =
         effort_.evaluations > 0 ? DecompressTuning::work_share * effort_.evaluations : o_.max_evaluations;
-    effort_.max_evaluations = effort_.evaluations + std::clamp(most, least, o_.max_evaluations);
+    effort_.allow(std::clamp(most, least, o_.max_evaluations));
     Relaxation r(state_, effort_);
     const DescentEnd end = minimise_and_measure(r, o_.minimiser, o_.force_tolerance, near_minimum, now);
     row = row_of(now, spent, effort_, monitor_.seconds() - seconds);
@@ -174,9 +180,7 @@ class Decompression {
   bool first_minimum() {
     SoftRow row;
     const DescentEnd end = find_minimum(false, out_.soft, row);
-    if (end == DescentEnd::balanced) return keep(row);
-    out_.status = status_of(end, monitor_, report_.stop_reason);
-    return true;
+    return end == DescentEnd::balanced ? keep(row) : end_as(end);
   }
 
   // Smaller diameters and the minimum there. One that has lost its contacts, or was not found, is taken back.
@@ -185,19 +189,19 @@ class Decompression {
     const double fall = out_.soft.report.distance * (1.0 - math::pow(factor_, 1.0 / o_.alpha));
     if (math::exp(-fall) == 1.0) return end_with(JAM_PRECISION, JAM_STOP_PRECISION);  // no diameter would change
     if (o_.minimiser == JAM_MINIMISER_NEWTON) {
-      centre_rattlers(state_);
-      state_.moved();
-      follow_growth(state_, -fall, effort_.factorisations);
+      const bool followed = ends_before_cancel([&] {
+        centre_rattlers(state_);
+        state_.moved();
+        follow_growth(state_, -fall, effort_);
+      });
+      if (!followed) return end_as(DescentEnd::interrupted);
     } else {
       state_.scale_diameters(math::exp(-fall));
     }
     SoftResult now;
     SoftRow row;
     const DescentEnd end = find_minimum(true, now, row);
-    if (end == DescentEnd::interrupted) {
-      out_.status = status_of(end, monitor_, report_.stop_reason);
-      return true;
-    }
+    if (end == DescentEnd::interrupted) return end_as(end);
     if (end == DescentEnd::balanced && enough_contacts(now)) {
       out_.soft = std::move(now);
       factor_ = std::max(factor_ * factor_, o_.energy_factor);
@@ -207,8 +211,7 @@ class Decompression {
     state_ = before_;
     factor_ = std::sqrt(factor_);
     if (factor_ <= DecompressTuning::last_factor) return false;
-    if (end == DescentEnd::limit || end == DescentEnd::rounding)
-      return out_.status = status_of(end, monitor_, report_.stop_reason), true;
+    if (end == DescentEnd::limit || end == DescentEnd::rounding) return end_as(end);
     return end_with(JAM_NOT_CONVERGED, JAM_STOP_STALLED);
   }
 
@@ -218,10 +221,14 @@ class Decompression {
     before_ = state_;
     const jam_relax_report &at = out_.soft.report;
     effort_.packing_fraction = at.packing_fraction, effort_.pressure = at.pressure;
-    report_.isostatic = is_isostatic(state_, out_.soft, effort_.factorisations);
+    report_.isostatic = 0;
+    const auto test = [&] { return is_isostatic(state_, out_.soft, effort_.factorisations); };
+    if (!ends_before_cancel([&] { report_.isostatic = o_.isostatic ? test() : if_it_fits(effort_, false, test); }))
+      return end_as(DescentEnd::interrupted);
     const bool target = at.pressure <= o_.pressure || at.distance <= o_.distance;
     if (target || (o_.isostatic && report_.isostatic)) {
       const bool same = !compare_ || same_as_hard();
+      if (compare_ && report_.same_network == -1 && monitor_.interrupted()) return end_as(DescentEnd::interrupted);
       if (target || same) return end_with(JAM_OK, at.pressure <= o_.pressure ? JAM_STOP_PRESSURE : JAM_STOP_CONVERGED);
     }
     if (at.mean_overlap < overlap_resolution(out_.soft.packing)) return end_with(JAM_PRECISION, JAM_STOP_PRECISION);
@@ -237,7 +244,7 @@ class Decompression {
     report_.crunch_fraction = hard.packing_fraction;
     report_.force_difference = hard.force_difference;
     report_.seconds_crunch += hard.seconds;
-    return hard.same_network;
+    return hard.same_network == 1;
   }
 
   void finish() {

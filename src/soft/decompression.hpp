@@ -23,17 +23,18 @@ struct SoftResult {
   jam_status status = JAM_OK;
 };
 
-// Throws for bad options, else never.
+// Throws for bad options, and where memory lacks or the search for pairs of the start is cancelled.
 SoftResult relax(const Packing &start, const jam_relax_options &o, Monitor &monitor);
 
 constexpr size_t soft_columns = JAM_SOFT_SECONDS + 1;
 using SoftRow = std::array<double, soft_columns>;
 
-// A soft packing beside the jammed one that a crunch made from just below contact.
+// A soft packing beside the jammed one that a crunch made from just below contact; unknown where that did not end.
 struct SoftComparison {
-  bool same_network = false;
+  int32_t same_network = -1;
   int64_t common_contacts = -1;
-  double packing_fraction = 0.0, force_difference = 0.0, seconds = 0.0;
+  double packing_fraction = std::numeric_limits<double>::quiet_NaN(), force_difference = packing_fraction;
+  double seconds = 0.0;
 };
 
 struct DecompressionResult {
@@ -76,6 +77,6 @@ jam_status status_of(DescentEnd end, const Monitor &monitor, int32_t &stop_reaso
 double overlap_resolution(const Packing &p);
 // Multiplies all diameters by exp(growth) and moves spheres by the part of the linear response that lowers the energy
 // most.
-void follow_growth(SoftState &state, double growth, int64_t &factorisations);
+void follow_growth(SoftState &state, double growth, Effort &effort);
 
 }  // namespace jam::inside

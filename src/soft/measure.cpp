@@ -100,11 +100,10 @@ SoftComparison compare_with_jammed(const ContactNetwork &soft, const ContactNetw
                                    const jam_crunch_report &report) {
   SoftComparison v;
   v.packing_fraction = report.packing_fraction;
-  v.force_difference = std::nan("");
   const auto common = common_contacts(soft, hard);
   v.common_contacts = static_cast<int64_t>(common.size());
   v.same_network = report.jammed == 1 && common.size() == hard.size() && common.size() == soft.size();
-  if (!v.same_network) return v;
+  if (v.same_network == 0) return v;
   v.force_difference = 0.0;
   for (const auto &[k, q] : common)
     v.force_difference = std::max(v.force_difference, std::fabs(soft.force[k] - hard.force[q]));

@@ -38,7 +38,9 @@ DescentEnd newton(Relaxation &r, double tolerance, SoftHessian &hessian, double 
     if (r.must_stop(end, true)) return end;
     if (std::find(on.begin(), on.end(), 1) == on.end()) return DescentEnd::stalled;
     if (!(fresh && now < NewtonTuning::good_factor * last && hessian.has_contacts(state, contacts))) {
-      if (!hessian.factorise(state, contacts, on, shift, r.effort.factorisations)) return DescentEnd::stalled;
+      if (!if_it_fits(r.effort, false,
+                      [&] { return hessian.factorise(state, contacts, on, shift, r.effort.factorisations); }))
+        return DescentEnd::stalled;
       fresh = true;
       convex = hessian.shift() == 0.0;
     }

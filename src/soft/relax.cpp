@@ -59,15 +59,17 @@ SoftState first_state(const Packing &p, const PairEnergy &energy, int32_t precis
 }
 
 DescentEnd minimise(Relaxation &r, int32_t minimiser, double tolerance, bool near_minimum, bool *convex) {
-  const CancellableScope scope;
   bool unused = false;
-  try {
-    if (minimiser == JAM_MINIMISER_FIRE) return fire(r, tolerance);
-    if (minimiser == JAM_MINIMISER_LBFGS) return lbfgs(r, tolerance);
-    return hybrid(r, tolerance, near_minimum, convex ? *convex : unused);
-  } catch (const Cancelled &) {  // in a search for pairs
-    return DescentEnd::interrupted;
-  }
+  DescentEnd end = DescentEnd::interrupted;
+  ends_before_cancel([&] {
+    if (minimiser == JAM_MINIMISER_FIRE)
+      end = fire(r, tolerance);
+    else if (minimiser == JAM_MINIMISER_LBFGS)
+      end = lbfgs(r, tolerance);
+    else
+      end = hybrid(r, tolerance, near_minimum, convex ? *convex : unused);
+  });
+  return end;
 }
 
 // Of spheres that overlap with too few contacts to be held, as those of a straight line, and where the Hessian is not
@@ -96,7 +98,9 @@ bool is_saddle(const Relaxation &r, const SoftResult &found, bool newton, bool c
           "not tested whether this is a saddle: without Newton's method the test would take most of the memory");
     return false;
   }
-  return !hessian.factorise(r.state, contacts, on, shift, r.effort.factorisations) || hessian.shift() > shift;
+  return if_it_fits(r.effort, false, [&] {
+    return !hessian.factorise(r.state, contacts, on, shift, r.effort.factorisations) || hessian.shift() > shift;
+  });
 }
 
 static void displace_at_random(Relaxation &r, size_t attempt) {
@@ -121,8 +125,10 @@ DescentEnd minimise_and_measure(Relaxation &r, int32_t minimiser, double toleran
     bool near = true;
     const double residual = std::max(out.report.force_residual, out.report.stress_residual);
     if (residual < tolerance) {
-      if (!is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex))
-        return out.report.contacts > 0 ? DescentEnd::balanced : DescentEnd::no_overlaps;
+      bool saddle = false;
+      if (!ends_before_cancel([&] { saddle = is_saddle(r, out, minimiser == JAM_MINIMISER_NEWTON, convex); }))
+        return DescentEnd::interrupted;
+      if (!saddle) return out.report.contacts > 0 ? DescentEnd::balanced : DescentEnd::no_overlaps;
       if (asked > RelaxTuning::before_strain) {  // so roughly, forces may balance before the minimum
         asked *= NewtonTuning::next_target;
       } else if (saddles == std::size(RelaxTuning::saddle_moves)) {

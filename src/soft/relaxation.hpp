@@ -1,8 +1,10 @@
 // Minimising the energy of soft spheres. Data flow:
 //   state -> L-BFGS until contacts settle -> Newton on the stable spheres -> balance of forces
 #pragma once
+#include <algorithm>
 #include <limits>
 
+#include "core/error.hpp"
 #include "core/monitor.hpp"
 #include "linalg/block_cholesky.hpp"
 #include "soft/soft_state.hpp"
@@ -28,11 +30,27 @@ inline bool can_continue(DescentEnd end) {
 struct Effort {
   Monitor *monitor = nullptr;
   int32_t phase = 0;            // jam_phase that is reported
-  int64_t max_evaluations = 0;  // counted from where `evaluations` was set
+  int64_t max_evaluations = 0;  // that `evaluations` may reach
   int64_t evaluations = 0, factorisations = 0;
   int64_t steps = 0;
   double packing_fraction = 0.0, pressure = 0.0;  // reported
+
+  void allow(int64_t more) {
+    max_evaluations = evaluations + std::min(more, std::numeric_limits<int64_t>::max() - evaluations);
+  }
 };
+
+// f(), which factorises the Hessian; `without` where its factor exceeds the memory of the call, which the log says.
+template <class F>
+bool if_it_fits(const Effort &effort, bool without, F &&f) {
+  try {
+    return f();
+  } catch (const Error &e) {
+    if (e.code() != JAM_E_MEMORY) throw;
+    if (effort.monitor) effort.monitor->log(JAM_LOG_INFO, "without the Hessian: %s", e.what());
+    return without;
+  }
+}
 
 // A state, its forces and sums at the present displacements.
 class Relaxation {

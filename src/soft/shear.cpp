@@ -47,7 +47,8 @@ class Shear {
     effort_.phase = JAM_PHASE_SHEAR;
     effort_.pressure = std::nan("");
     jam_shear_report &r = out_.report;
-    r.stress = r.pressure = r.first_event = r.peak_stress = r.peak_strain = std::nan("");
+    r.strain = r.stress = r.pressure = r.energy = r.first_event = r.peak_stress = r.peak_strain = std::nan("");
+    r.contacts = r.rattlers = -1;
   }
 
   ShearResult run(const Packing &start) {
@@ -96,11 +97,11 @@ class Shear {
   // One step. A cancel or the wall time takes back its part, so that the next call makes the same steps to the same
   // bits.
   bool advance(double strain, double step) {
-    const Begun begun{out_.last, row_, has_row_, out_.rows.size(), out_.report};
+    const Begun begun{out_.last, out_.rows.size(), out_.report};  // a row, too
     if (!go_through(strain, step)) return false;
     const int32_t reason = out_.report.stop_reason;
     if (at_.done == 0.0 || (reason != JAM_STOP_CANCELLED && reason != JAM_STOP_WALL_TIME)) return true;
-    out_.last = begun.last, row_ = begun.row, has_row_ = begun.has_row, out_.report = begun.report;
+    out_.last = begun.last, out_.report = begun.report, has_row_ = true;
     out_.rows.resize(begun.rows);
     at_.done = 0.0, out_.report.stop_reason = reason;
     return true;
@@ -258,11 +259,11 @@ class Shear {
       const ShearRow &row = out_.rows.back();
       r.strain = row[JAM_SHEAR_STRAIN];
       if (p.rigid) r.stress = row[JAM_SHEAR_STRESS], r.pressure = row[JAM_SHEAR_PRESSURE];
+      r.energy = p.at.report.energy;
+      r.contacts = static_cast<int64_t>(p.at.contacts.size());
+      r.rattlers = p.at.report.rattlers;
     }
-    r.energy = p.at.report.energy;
-    r.packing_fraction = p.at.report.packing_fraction;
-    r.contacts = static_cast<int64_t>(p.at.contacts.size());
-    r.rattlers = p.at.report.rattlers;
+    r.packing_fraction = out_.rows.empty() ? packing_fraction(p.at.packing) : p.at.report.packing_fraction;
     r.steps = effort_.steps;
     r.evaluations = effort_.evaluations;
     r.factorisations = effort_.factorisations;
@@ -270,8 +271,7 @@ class Shear {
   }
 
   struct Begun {  // what a step began from
-    ShearPoint last, row;
-    bool has_row;
+    ShearPoint last;
     size_t rows;
     jam_shear_report report;
   };

@@ -157,7 +157,7 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
     const CancellableScope scope;
     try {
       SoftState state = first_state(p, PairEnergy(o.alpha, o.scale), o.precision);
-      effort.max_evaluations = effort.evaluations + o.max_evaluations;
+      effort.allow(o.max_evaluations);
       Relaxation r(state, effort);
       const int64_t begun = effort.evaluations;
       const bool near = !first || r.stable_residual() < RelaxTuning::before_strain;

@@ -190,7 +190,9 @@ bool SoftHessian::factorise(const SoftState &state, const SoftContacts &contacts
   assemble(state, contacts, on);
   if (cholesky_.supernodes() == 0 || ei_ != analysed_i_ || ej_ != analysed_j_) {  // one sphere: its lists are empty
     // A few contacts more or less leave the elimination order good.
-    if (analysed_i_.empty())
+    const bool first = analysed_i_.empty();
+    analysed_i_.clear();  // until this ends: the memory of the call may not suffice
+    if (first)
       cholesky_.analyse(state.dim(), static_cast<int32_t>(state.n()), ei_.data(), ej_.data(), ei_.size());
     else
       cholesky_.analyse_keep_order(state.dim(), static_cast<int32_t>(state.n()), ei_.data(), ej_.data(), ei_.size());

@@ -171,3 +171,71 @@ CASE(unjammed_start) {
   assert_int_equal(jam_relax(sys, NULL, &r), JAM_NOT_JAMMED);
   assert_true(r.converged == 1 && r.rattlers == 60 && r.contacts == 0);
 }
+
+static int32_t stop_in_crunch(const jam_progress *p, void *user) {
+  (void)user;
+  return p->phase == JAM_PHASE_CRUNCH || p->phase == JAM_PHASE_POLISH;
+}
+
+/* A crunch that did not end compares nothing, and what stopped it stops the call. */
+CASE(a_stop_in_the_crunch_is_one_of_the_call) {
+  OWNED jam_system *sys = soft_start(80, 0.72, 5);
+  jam_decompress_report d = {.struct_size = sizeof d};
+  DEFAULTS(decompress, o);
+  o.isostatic = 0, o.pressure = 1e-3;
+  assert_int_equal(jam_set_progress(sys, stop_in_crunch, NULL), JAM_OK);
+  assert_int_equal(jam_decompress(sys, &o, &d), JAM_CANCELLED);
+  assert_int_equal(d.stop_reason, JAM_STOP_CANCELLED);
+  assert_true(d.same_network == -1 && d.common_contacts == -1 && isnan(d.crunch_fraction));
+  assert_true(d.pressure <= 1e-3 && d.contacts > 0); /* the soft packing is kept */
+}
+
+static void cancel_at_log(int32_t level, const char *line, void *user) {
+  (void)level;
+  if (strstr(line, " excess 0 ")) jam_cancel(user);
+}
+
+/* The log of a step comes before the test whether its network is isostatic. */
+CASE(the_test_for_an_isostatic_network_can_be_stopped) {
+  OWNED jam_system *sys = soft_start(80, 0.72, 5), *unmoved = copy_of(sys);
+  jam_decompress_report d = {.struct_size = sizeof d};
+  DEFAULTS(decompress, o);
+  o.crunch = 0;
+  assert_int_equal(jam_set_log(sys, cancel_at_log, JAM_LOG_INFO, sys), JAM_OK);
+  assert_int_equal(jam_decompress(sys, &o, &d), JAM_CANCELLED);
+  assert_true(d.stop_reason == JAM_STOP_CANCELLED && d.excess_contacts == 0 && d.isostatic == 0);
+  o.max_evaluations = 1;
+  assert_int_equal(jam_set_log(sys, NULL, JAM_LOG_NONE, NULL), JAM_OK);
+  assert_int_equal(jam_set_positions(sys, view_of(unmoved, JAM_VIEW_POSITIONS), 240), JAM_OK);
+  assert_int_equal(jam_decompress(sys, &o, &d), JAM_LIMIT);
+  SAYS(jam_decompress_history(sys, JAM_SOFT_COLUMNS, NULL, 0, &(size_t){0}), JAM_E_STATE, "no minimum");
+}
+
+/* Without memory for the Hessian, forces balance without Newton's method, and no test for saddles takes them back. */
+CASE(minima_without_memory_for_the_hessian) {
+  for (int32_t minimiser = JAM_MINIMISER_NEWTON; minimiser <= JAM_MINIMISER_LBFGS; ++minimiser) {
+    OWNED jam_system *sys = soft_start(400, 0.7, 3);
+    jam_relax_report r = {.struct_size = sizeof r};
+    DEFAULTS(relax, o);
+    o.minimiser = minimiser, o.force_tolerance = 1e-8;
+    assert_int_equal(jam_set_memory_limit(sys, 1.5e6), JAM_OK);
+    assert_int_equal(jam_relax(sys, &o, &r), JAM_OK);
+    assert_true(r.converged == 1 && r.force_residual < 1e-8 && r.excess_contacts > 0);
+  }
+}
+
+/* No minimum to shear from: nothing is known of one. */
+CASE(shears_without_a_first_minimum) {
+  OWNED jam_system *sys = soft_start(60, 0.7, 1);
+  jam_shear_report r = {.struct_size = sizeof r};
+  const double end = 1e-3;
+  DEFAULTS(shear, o);
+  o.max_evaluations = 1;
+  assert_int_equal(jam_shear(sys, &o, &end, 1, NULL, 0, &r), JAM_LIMIT);
+  assert_true(isnan(r.strain) && isnan(r.stress) && isnan(r.energy) && r.contacts == -1 && r.rattlers == -1);
+  assert_true(fabs(r.packing_fraction - 0.7) < 1e-12);
+  SAYS(jam_shear_history(sys, JAM_SHEAR_COLUMNS, NULL, 0, &(size_t){0}), JAM_E_STATE, "no minimum");
+  o.max_evaluations = INT64_MAX;
+  assert_int_equal(jam_shear(sys, &o, &end, 1, NULL, 0, &r), JAM_OK);
+  assert_true(r.rigid == 1 && r.contacts > 0 && r.energy > 0.0);
+}

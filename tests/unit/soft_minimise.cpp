@@ -2,6 +2,7 @@
 #include <cmath>
 #include "test.h"
 
+#include "core/call_scope.hpp"
 #include "core/rng.hpp"
 #include "soft/decompression.hpp"
 #include "unit/random_packing.hpp"
@@ -184,6 +185,32 @@ CASE(balance_at_tiny_overlaps) {
   const SoftResult exact = relaxed(end.soft.packing, JAM_MINIMISER_NEWTON);
   assert_int_equal(exact.status, JAM_OK);
   assert_true(exact.report.force_residual < 1e-12);
+}
+
+// The forces of a crystal balance at once, and the test for a saddle is all that takes time.
+CASE(tests_for_saddles_can_be_stopped) {
+  Packing p;
+  p.set_cube(3, 4.0);
+  for (int k = 0; k < 256; ++k)
+    for (int c = 0; c < 3; ++c) {
+      const int corner = k % 4, cell = k / 4 / (c == 0 ? 1 : c == 1 ? 4 : 16) % 4;
+      p.position.push_back(cell + (corner > 0 && corner != c + 1 ? 0.5 : 0.0));
+    }
+  p.diameter.assign(256, 1.02 * std::sqrt(0.5));
+  p.overlap_allowed = true;
+  Monitor monitor;
+  monitor.begin();
+  const CallScope scope(1e9, &monitor);
+  SoftState state = first_state(p, PairEnergy(2.0, JAM_SOFT_RELATIVE), JAM_SOFT_REFERENCE);
+  Effort effort;
+  effort.monitor = &monitor;
+  effort.allow(1000);
+  Relaxation r(state, effort);
+  SoftResult out;
+  assert_true(minimise_and_measure(r, JAM_MINIMISER_LBFGS, 1e-9, false, out) == DescentEnd::balanced);
+  monitor.cancel();
+  assert_true(minimise_and_measure(r, JAM_MINIMISER_LBFGS, 1e-9, false, out) == DescentEnd::interrupted);
+  assert_int_equal(out.report.contacts, 6 * 256);  // what was measured stays
 }
 
 // A rattler against its cage goes to where its nearest neighbours are farther.

@@ -6,14 +6,13 @@ forces are positive, all other pairs are open, and its stable spheres are collec
 strict strictly: every motion and strain without overlap enlarges the volume; of a file with the word sum, that the
 weighted sum of radii has a strict local maximum there. Integers and fractions decide. Forces and inverse are hints:
 bad ones lose the proof, they cannot make one. A file without inverse gets one by floats, from numpy or else computed
-here; OUT is then the file with it. A second line says what packing that is: spheres, contacts, rattlers, and the
-packing fraction to the digits that are proved.
+here; OUT is then the file with it, but for files with a line symmetry, which stay without. A second line says what
+packing that is: spheres, contacts, rattlers, and the packing fraction to the digits that are proved.
 
 Exit status: 0 proved, 1 not proved, 2 a file cannot be read or written, or PACKING.xyz is another packing, 3 trapped
 but not proved, 4 could not try: a file that this one needs is not beside it. Such files are jamproof_implied.py where
 some contacts follow from others, jamproof_symmetric.py where a symmetry closes them, jamproof_trapped.py for crystals
-and all else with more contacts than unknowns, and jamproof_xyz.py for --xyz. The page "The theorems behind proofs" of
-the guide has the proofs.
+and all else with more contacts than unknowns, and jamproof_xyz.py for --xyz. The guide has the proofs.
 
 Theorem A. Unknown are the centres x of the stable spheres but the first, and G; if strict, in place of G the cell
 vectors H, a lower triangle; of a sum, all diameters. F_c = |r_c|^2 - G sigma_c^2, r_c = x_i - x_j + n H, is to be 0
@@ -29,7 +28,7 @@ and beta = D alpha.
 A flat wall is a contact with the mirror image: r_c is twice the way from the wall to x_i, sigma_c the diameter, m = 2
 for a stable sphere. Along an axis with walls the first sphere is unknown too.
 A round wall of a container of width W has F_c = (W - g s_i)^2 - |r_c|^2, r_c = 2 x_i - W along its axes, s_i the ratio.
-Of such a file g is unknown in place of G = g^2, and D = 4 d + max s^2. For each rotation that the wall allows one
+Of such a file g is unknown in place of G = g^2, D = 4 d + max sigma_c^2. For each rotation that the wall allows one
 component of a sphere is pinned: where J is regular, no rotation leaves all of them at rest. The wall stays open if
 |r|^2 + 2 m r |r|_1 + d (m r)^2 < (W - (g + r_g) s)^2, m = 2 for a stable sphere.
 """
@@ -159,9 +158,8 @@ class Scene:
         lengths = [number(x) for s in [cell] + [s[2:] for s in spheres] for x in s]
         halves = [v / 2 for v in self.ratio] if self.weights else []
         lengths, self.one = whole(lengths + halves)
-        lengths = lengths[: len(lengths) - len(halves)]
         self.cell = [lengths[r * (r + 1) // 2 : (r + 1) * (r + 2) // 2] + [0] * (d - r - 1) for r in range(d)]
-        self.x = [lengths[at : at + d] for at in range(len(cell), len(lengths), d)]
+        self.x = [lengths[at : at + d] for at in range(len(cell), len(lengths) - len(halves), d)]
         at_walls = {c for c, (_, j, _) in enumerate(self.contacts) if j < 0}
         ends, named = {i for c in self.contacts for i in c[:2]}, {c for _, ring in self.tiles for c in ring}
         again = {(j, i, tuple(-v for v in n)) for i, j, n in self.contacts} | set(self.contacts)
@@ -253,11 +251,11 @@ class Scene:
                 for k in range(self.dim):
                     if (end, k) in self.place:
                         columns[self.place[end, k]].append((c, times * r[k]))
+                if self.weights:  # at a wall of the whole diameter
+                    columns[self.sizes + end].append((c, -int(self.sigma(i, j) * self.one) * abs(times) // 2))
             for q, at in enumerate(self.vectors):
                 for k in range(q + 1):
                     columns[at + k].append((c, 2 * n[q] * r[k]))
-            for end in ((i, j) if j >= 0 else (i, i)) if self.weights else ():
-                columns[self.sizes + end].append((c, -int(self.sigma(i, j) * self.one)))
         return f, sigma2, columns
 
     def rounded(self, columns):
@@ -423,6 +421,12 @@ def radius_of(delta, eta, beta):
     return r
 
 
+def second_order(s):
+    """D of Theorem A; by how many r a contact vector moves at most."""
+    ways = 2 + s.strict * max(sum(map(abs, n)) for *_, n in s.contacts)
+    return s.dim * ways**2 + bool(s.weights) + (max(s.sigma2(i, j) for i, j, _ in s.contacts) if s.round else 0), ways
+
+
 def check(s):
     """Theorem A: what is proved."""
     every = range(len(s.contacts))
@@ -441,8 +445,7 @@ def check(s):
     eta_g, alpha_g = abs(sum(map(mul, f, row))), sum(map(abs, row))  # the row of G is minus a state of self-stress
     largest = max([max(max(map(abs, column)) for column in inverse) * TWO**e, *map(abs, row)])
     delta, eta, alpha = max(delta + [delta_g]), max(eta + [eta_g]), max(alpha + [alpha_g])
-    ways = 2 + s.strict * max(sum(map(abs, n)) for *_, n in s.contacts)  # a contact vector moves by ways r at most
-    wide = s.dim * ways**2 + bool(s.weights) + (max(s.ratio) ** 2 if s.round else 0)  # D
+    wide, ways = second_order(s)
     beta = wide * alpha
     r = radius_of(delta, eta, beta)
     wrong = s.tiles and (ways * r) ** 2 * 10**12 > s.gamma * min(s.ratio) ** 2
@@ -458,9 +461,8 @@ def check(s):
     error, mean = (off + 2 * wide * size * r) / (1 - delta - 2 * beta * r) * largest, size / len(forces)  # (2)
     refuse(least <= error, f"force: the least is {float(least / mean):.3g}, its error {float(error / mean):.3g}")
     s.within = [r / h for h in s.edges] if s.strict else sum(s.weights) / 2 * r if s.weights else r_g / s.gamma
-    found = {"radius": r * s.unit, **({} if s.fixed else {"gamma_error": r_g / s.gamma})}
-    found.update({"sum_error": s.within * s.unit} if s.weights else {})
-    found["least_gap"] = gap(s.least_opening(r, s.gamma + r_g))
+    sizes = {"sum_error": s.within * s.unit} if s.weights else {} if s.fixed else {"gamma_error": r_g / s.gamma}
+    found = {"radius": r * s.unit, **sizes, "least_gap": gap(s.least_opening(r, s.gamma + r_g))}
     return {**found, "delta": delta, "least_force": least / mean, "force_error": error / mean}
 
 
@@ -521,10 +523,8 @@ def summary(s):
     """What packing that is; the digits of phi are those that both bounds share."""
     low, high = (str(math.floor(v * 10**100)).zfill(101) for v in fraction(s)) if s.within is not None else ("", "")
     same = next((k for k, (a, b) in enumerate(zip(low, high)) if a != b), len(low))
-    point = len(low) - 100
-    what = "sum of radii" if s.weights else "phi"
+    point, what, loose = len(low) - 100, "sum of radii" if s.weights else "phi", s.stable.count(False)
     digits = f", {what} = {low[:point]}.{low[point:same]}..." if same > point > 0 else ""
-    loose = s.stable.count(False)
     return f"d = {s.dim}, N = {len(s.x)}, {len(s.contacts)} contacts, {loose} rattler{'s' * (loose != 1)}{digits}"
 
 

@@ -4,7 +4,7 @@ More contacts than unknowns all close only if algebra gives a reason. Here it is
 Theorem A closes. Words of the file, contacts numbered from 0:
 
     tile c1 c2 c3 [c4]    round a triangle with two equal sides, or a parallelogram: directions of its sides are related
-    implied c p1 .. pm    the contact c closes a walk over p1 .. pm, which adds up to one vector of its length
+    implied c p1 .. pm    the contact c closes a walk over p1 .. pm (m = 2, 3), which adds up to one vector of its length
 
 The relations are true while the contacts are closed and the tile is convex, as it is within the radius of Theorem A.
 An angle is {name: whole number}. The name () is 60 degrees; (p, q) is the angle at the base of a triangle with sides

@@ -15,7 +15,7 @@ delta' + 2 D |B| r < 1 for a matrix B.
 import copy
 from fractions import Fraction
 
-from jamproof import TWO, bounds, gap, integer, inverse_of, radius_of, refuse
+from jamproof import TWO, bounds, gap, integer, inverse_of, radius_of, refuse, second_order
 
 
 class Orbits:
@@ -106,7 +106,7 @@ def check(s):
     folded = [sorted(column.items()) for column in folded]
     part = copy.copy(s)
     part.unknowns, part.inverse = count, None
-    j, wide = s.rounded(folded), 4 * d + 1
+    j, (wide, _) = s.rounded(folded), second_order(s)
     e, inverse = inverse_of(part, j, count)
     delta, eta, alpha = map(max, bounds(s, [f[first[k]] for k in range(rows)], j, e, inverse, [1] * count))
     beta = wide * alpha

@@ -63,7 +63,7 @@ def closed(s, columns):
         wrong = off >= (1 - delta) * least
         refuse(wrong, f"force: the least is {float(least):.3g}, what balances them {float(off):.3g}")
     s.within = [] if s.strict else 0
-    return {"radius": 0, "gamma_error": 0, "least_gap": gap(s.least_opening(0, s.gamma))}
+    return {"radius": 0, "sum_error" if s.weights else "gamma_error": 0, "least_gap": gap(s.least_opening(0, s.gamma))}
 
 
 def trapped(s):

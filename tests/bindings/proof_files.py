@@ -81,6 +81,13 @@ class File:
         line[at] = word(value(line[at]) + Fraction(by))
 
 
+def apart(text):
+    """The file with a larger distance of unlike spheres, of which libjam makes none within walls."""
+    f = File(text)
+    f.header("non_additivity")[1] = "3p-3"
+    return f.text()
+
+
 # Each is a change(file, random).
 def dropped(name):
     return lambda f, r: f.lines.remove(r.choice(f.of(name)))

@@ -232,6 +232,30 @@ class Program(InFolder):
             self.assertEqual(done.returncode, 2, done.stdout)
             self.assertIn(why, done.stdout)
 
+    def test_an_xyz_file_that_is_not_whole_is_refused(self):
+        for dim in (2, 3, 4):
+            system, ratio = packing(16, dim, 7)
+            path, xyz = self.write(file_of(system, ratio)), self.folder / "a.xyz"
+            system.write(str(xyz))
+            whole = xyz.read_text()
+            lattice, row = re.search('Lattice="[^"]*"', whole)[0], whole.split("\n")[2]
+            other = lambda at, word: " ".join([*row.split()[:at], word, *row.split()[at + 1 :]])
+            edges = " ".join(f"{float(r == c)}" for r in range(dim) for c in range(dim))
+            for old, new, why in (
+                (lattice, f'Lattice="{edges}"', "the same packing"),
+                (lattice, 'Lattice="1 0 0"', "cannot be read"),
+                (lattice, 'Lattice=""', "cannot be read"),
+                (f":pos:R:{max(dim, 3)}", f":pos:R:{dim - 1}", "cannot be read"),
+                (row, row.rsplit(" ", 1)[0], "cannot be read"),
+                (row, other(1, "1e999999999"), "cannot be read"),
+                (row, other(1 + max(dim, 3), "0"), "cannot be read"),
+                ("16\n", "17\n", "cannot be read"),
+            ):
+                xyz.write_text(whole.replace(old, new, 1))
+                done = run(CHECKER, path, "--xyz", xyz)
+                self.assertEqual((done.returncode in (0, 3), done.stderr), (why == "the same packing", ""), new)
+                self.assertIn(f"{xyz}: {why}", done.stdout)
+
     def test_words_without_numbers_are_no_traceback(self):
         for line in ("implied", "tile", "inverse", "dim", "gamma", "sphere", "contact"):
             done = run(CHECKER, self.write(self.text + line + "\n"))

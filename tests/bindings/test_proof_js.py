@@ -10,7 +10,7 @@ import unittest
 
 import numpy as np
 from compiled import compiled
-from proof_files import ROOT, file_of, jamproof
+from proof_files import ROOT, apart, file_of, jamproof
 from test_proof import packing
 from test_proof_bounds import fcc, square_lattice
 from test_proof_checker import flower
@@ -126,6 +126,9 @@ class TwoCheckers(InFolder):
         for k, text in enumerate((texts[0].replace("\n", "\n\n", 1), texts[0] + "\n", texts[0] + "strict\n", texts[0] + inverse)):
             changed.append(self.folder / f"twice{k}")
             changed[-1].write_text(text, encoding="ascii")
+        for k, text in enumerate(text for text in texts if "\nround " in text):
+            changed.append(self.folder / f"apart{k}")
+            changed[-1].write_text(apart(text), encoding="ascii")
         for k in range(MUTANTS):
             changed.append(self.folder / f"mutant{k}")
             changed[-1].write_text(mutant(texts[k % len(texts)], r), encoding="utf-8")

@@ -86,6 +86,32 @@ class Sums(unittest.TestCase):
     def test_both_prove_the_same_sum(self):
         both_prove(self, self.made)
 
+    def test_the_equations_have_their_derivatives(self):
+        """R is the derivative of F, in fractions. At a wall F falls with the square of the whole diameter."""
+        step = Fraction(1, 2**20)
+        for _, text in self.made:
+            scene = scene_of(text)
+            columns, f = [dict(column) for column in scene.equations(range(len(scene.contacts)))[2]], {}
+            for i in range(len(scene.x)):
+                for at, unknown in [(2, scene.sizes + i), *((3 + c, scene.place[i, c]) for c in range(2) if (i, c) in scene.place)]:
+                    for sign in (1, -1):
+                        file = File(text)
+                        file.shift(file.spheres[i], at, sign * step)
+                        f[sign] = scene_of(file.text()).equations(range(len(scene.contacts)))[0]
+                    for c, (up, low) in enumerate(zip(f[1], f[-1])):
+                        have = Fraction(columns[unknown].get(c, 0), scene.one)
+                        self.assertLess(abs((up - low) / (2 * step) - have), Fraction(1, 10**30), (i, at, c))
+
+    def test_a_sum_that_closes_as_written(self):
+        """One disk in a square touches four walls, with three unknowns."""
+        lines = ["jamproof 1", "sum 1p0", "dim 2", "unit 1p0", "cell 1p0 0p0 1p0", "non_additivity 0p0", "gamma 1p0", "walls 0 1"]
+        lines += ["sphere 1 1p0 1p-1 1p-1", *(f"wall 0 {axis} {side} 1p-4" for axis in (0, 1) for side in (0, 1))]
+        text = "\n".join(lines) + "\n"
+        found = verdict(text)
+        self.assertIsInstance(found, dict, found)
+        self.assertEqual((found["radius"], found["sum_error"], "gamma_error" in found), (0, 0, False))
+        self.assertEqual(sum_of(text), [Fraction(1, 2)] * 2)
+
     def test_weights_and_balls(self):
         weights = np.array([1.0, 2.0, 1.5])
         proved, text = file_of(maximum(3, 2, 1, weights), weights=weights)

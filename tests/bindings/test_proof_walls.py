@@ -1,5 +1,6 @@
 """Proofs between flat and round walls: of what libjam jams there, of algebraic packings, by Newton's method in decimals, and none of
 files that were changed."""
+import copy
 import decimal
 import math
 import random
@@ -10,7 +11,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
-from proof_files import FLAT, ROUND, File, agree, file_of, jamproof, moved, scene_of, try_changes, value, verdict
+from proof_files import FLAT, ROUND, File, agree, apart, file_of, jamproof, moved, scene_of, try_changes, value, verdict
 
 import jam
 
@@ -135,6 +136,27 @@ class Walls(unittest.TestCase):
     def test_a_wall_is_no_first_sphere(self):
         """Five loose disks that one more line, 'contact -1 1 0 0', would hold: -1 is a wall, and no sphere that stays."""
         self.assertEqual(verdict(Path(__file__).with_name("loose.jamproof").read_text()), "unreadable")
+
+    def test_the_second_order_is_bounded(self):
+        """D of Theorem A bounds the bilinear form of F'' / 2 on motions and changes of g, also where unlike spheres stay farther apart."""
+        for name in PINS:
+            scene = scene_of(apart(file_of(*self.made[name][0])))
+            bound, every = jamproof.second_order(scene)[0], range(len(scene.contacts))
+
+            def f_at(c, way, grown):
+                moved = copy.deepcopy(scene)
+                i, j, _ = moved.contacts[c]
+                for k in range(moved.dim):
+                    for end, sign in ((i, 1), (j, -1)):
+                        if (end, k) in moved.place:
+                            moved.x[end][k] += sign * way * moved.one
+                moved.growth += grown
+                moved.gamma = moved.growth**2
+                return moved.equations(every)[0][c]
+
+            for c in every:
+                square = f_at(c, 2, 0) - f_at(c, 1, 1) - f_at(c, 1, -1) + f_at(c, 0, 0)
+                self.assertLessEqual(abs(square) / 2, bound, (name, scene.contacts[c]))
 
     def test_small_changes_stay_within_the_radius(self):
         generator = random.Random(5)

@@ -36,8 +36,8 @@ function check(s) {
   const largest = most([largestEntry(inverse), ...row.map((v) => v.abs())]);
   const [delta, eta, alpha] = [[...found.delta, deltaG], [...found.eta, etaG], [...found.alpha, alphaG]].map(most);
   const images = s.strict ? Math.max(...s.contacts.map(({ n }) => n.reduce((sum, m) => sum + Math.abs(m), 0))) : 0;
-  const ways = 2 + images, largestRatio = most(s.ratio); // a contact vector moves by ways r at most
-  const wide = new Exact(BigInt(s.dim * ways ** 2)).plus(s.round ? largestRatio.times(largestRatio) : ZERO); // D
+  const ways = 2 + images, largest2 = s.round ? most(s.contacts.map(({ i, j }) => s.sigma2(i, j))) : ZERO;
+  const wide = new Exact(BigInt(s.dim * ways ** 2)).plus(largest2); // D; a contact vector moves by ways r at most
   const beta = wide.times(alpha), left = ONE.minus(delta), room = left.times(left);
   const curved = new Exact(4n).times(beta).times(eta);
   refuse(!delta.below(ONE) || !curved.below(room), () => `singular: delta ${digits(delta.number())}, ` +
@@ -90,7 +90,7 @@ const raised = (x, k) => Array(k).fill(x).reduce((a, b) => a.times(b), ONE);
 function fraction(s) {
   const d = s.dim, half = Math.floor(d / 2);
   const product = (list) => list.reduce((a, b) => a * BigInt(b), 1n);
-  const volume = raised(ONE, 0).times(Exact.ratio(product(s.cell.map((row, q) => row[q])), s.one ** BigInt(d)));
+  const volume = Exact.ratio(product(s.cell.map((row, q) => row[q])), s.one ** BigInt(d));
   const ball = (m) => { // of diameter 1, over pi^floor(m / 2)
     const list = Array.from({ length: m % 2 ? (m + 1) / 2 : m / 2 }, (_, k) => (m % 2 ? m - 2 * k : k + 1));
     return Exact.ratio(m % 2 ? power((m + 1) / 2) : 1n, product(list)).scaled(-m);

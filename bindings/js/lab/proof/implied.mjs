@@ -17,8 +17,7 @@ function plus(a, b, times = 1) {
 /** The contacts of a walk with half turn or none, and vector; where it leads, with the sum of images. */
 function walk(s, ring) {
   const ends = ring.map((c) => s.contacts[c]), [p, q] = ends;
-  const start = p.i === q.i || p.i === q.j ? p.j : p.i, back = p.j === q.i || p.j === q.j;
-  let at = back ? p.i : p.j;
+  let at = p.j === q.i || p.j === q.j ? p.i : p.j;
   const from = at;
   let image = Array(s.dim).fill(0);
   const sides = ring.map((c, k) => {
@@ -28,7 +27,7 @@ function walk(s, ring) {
     image = image.map((v, m) => v + sign * n[m]);
     return { c, angle: turns(((1 - sign) / 2) * 3), vector: s.vector(ends[k]).map((v) => BigInt(sign) * v) };
   });
-  return { sides, from, at, image, start };
+  return { sides, from, at, image };
 }
 
 /** The direction of side q is that of p and an angle: {contact: [root, angle to it]}. */

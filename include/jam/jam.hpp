@@ -120,9 +120,9 @@ class System {
                   const std::vector<double> &diameters = {}, const std::vector<double> &cell = {}) {
     adopt([&](jam_system **out) {
       jam_start start = report<jam_start>();
-      start.positions = positions.data();
+      start.positions = positions.empty() ? nullptr : positions.data();
       start.positions_len = positions.size();
-      start.diameters = diameters.data();
+      start.diameters = diameters.empty() ? nullptr : diameters.data();
       start.diameters_len = diameters.size();
       start.cell = cell.empty() ? nullptr : cell.data();
       start.cell_len = cell.size();

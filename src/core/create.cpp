@@ -43,6 +43,12 @@ size_t count_spheres(const jam_create_options &o, size_t positions_len, size_t d
   return n;
 }
 
+// An array that is given and empty would otherwise be one that is left out.
+void check_start(const char *name, const double *array, size_t len) {
+  if (len && !array) fail(JAM_E_NULL, "%s is NULL but its length is %zu", name, len);
+  if (array && !len) fail(JAM_E_ARGUMENT, "%s has no numbers: NULL leaves it out", name);
+}
+
 std::vector<double> take_diameters(size_t n, const double *diameters, size_t len) {
   for (size_t k = 0; k < len; ++k)
     if (!(diameters[k] > 0.0) || !std::isfinite(diameters[k]))
@@ -200,8 +206,8 @@ Packing make_packing(const jam_create_options &o, const double *positions, size_
   check_options(o);
   const Enclosure enclosure{o.container, o.walls};
   const bool walled = enclosure.any();
-  if (positions_len && !positions) fail(JAM_E_NULL, "positions is NULL but its length is %zu", positions_len);
-  if (diameters_len && !diameters) fail(JAM_E_NULL, "diameters is NULL but its length is %zu", diameters_len);
+  check_start("positions", positions, positions_len);
+  check_start("diameters", diameters, diameters_len);
   const size_t n = count_spheres(o, positions_len, diameters_len);
   for (size_t k = 0; k < positions_len; ++k)
     if (!std::isfinite(positions[k]))

@@ -233,8 +233,7 @@ void prove_trapping(const ProofScene &s, const ProofEquations &e, const ForceBou
   const double square = mul_down(left, left), product = mul_up(4.0, mul_up(a0, a2));
   if (!(product < square)) return;
   const double root = sqrt_down(sub_down(square, product));
-  out.inner = div_up(mul_up(2.0, a0), add_up(left, 0.0) + root);
-  out.inner = mul_up(out.inner, 1.0 + 8.0 * half_ulp);
+  out.inner = div_up(mul_up(2.0, a0), down(left + root));
   out.outer = down(down((left + root) / mul_up(2.0, a2)));
   if (s.strict) out.outer = std::min(out.outer, 0.5 * edge);
   out.trapped = gaps.all_seen && out.inner < out.outer;

@@ -43,8 +43,7 @@ std::vector<double> of_mean_one(size_t n, const double *weights, double &mean) {
   std::vector<double> out(n, 1.0);
   mean = 1.0;
   if (!weights) return out;
-  mean = 0.0;
-  for (size_t i = 0; i < n; ++i) mean += weights[i] / static_cast<double>(n);
+  mean = mean_weight(weights, n);
   for (size_t i = 0; i < n; ++i) out[i] = weights[i] / mean;
   return out;
 }

@@ -26,6 +26,7 @@ RadiiResult maximise_radii(const Packing &start, const jam_radii_options &o, con
 jam_radii_options default_radii_options();
 // Throws JAM_E_... before any work.
 void check_radii(const Packing &p, const jam_radii_options &o, const double *weights, size_t weights_len);
+double mean_weight(const double *weights, size_t n);
 std::vector<double> exponents_of(const jam_radii_options &o);
 RadiiBounds bounds_of(const Packing &p, const jam_radii_options &o);
 

@@ -10,6 +10,12 @@
 
 namespace jam::inside {
 
+double mean_weight(const double *weights, size_t n) {
+  double mean = 0.0;
+  for (size_t i = 0; i < n; ++i) mean += weights[i] / static_cast<double>(n);
+  return mean;
+}
+
 std::vector<double> exponents_of(const jam_radii_options &o) {
   const double all[] = {o.exponent_1, o.exponent_2, o.exponent_3, o.exponent_4};
   return {all, all + o.moments};
@@ -31,6 +37,22 @@ RadiiBounds bounds_of(const Packing &p, const jam_radii_options &o) {
 
 namespace {
 
+// The search divides by weights over their mean, which must not underflow.
+void check_weights(const Packing &p, const double *weights, size_t weights_len) {
+  if (weights_len && weights_len != p.n())
+    fail(JAM_E_ARGUMENT, "weights_len is %zu, it must be 0 or n = %zu", weights_len, p.n());
+  for (size_t i = 0; i < weights_len; ++i)
+    if (!(weights[i] > 0.0 && weights[i] <= RadiiTuning::most_weight))
+      fail(JAM_E_ARGUMENT,
+           "weights[%zu] is %g, it must be positive and at most %g: without a weight a radius has no value", i,
+           weights[i], RadiiTuning::most_weight);
+  const double mean = mean_weight(weights, weights_len);
+  for (size_t i = 0; i < weights_len; ++i)
+    if (!std::isnormal(weights[i] / mean))
+      fail(JAM_E_ARGUMENT, "weights[%zu] is %g and the mean weight %g: no double holds the quotient to all digits", i,
+           weights[i], mean);
+}
+
 void check_moments(const Packing &p, const jam_radii_options &o, size_t weights_len) {
   if (o.moments < 0 || o.moments > 4)
     fail(JAM_E_ARGUMENT, "moments is %lld, it must be 0 .. 4", static_cast<long long>(o.moments));
@@ -44,7 +66,7 @@ void check_moments(const Packing &p, const jam_radii_options &o, size_t weights_
            "exponent_%zu is %g, its size must be %g to %g: the moment of exponent 0 is the number of spheres", k + 1,
            q[k], RadiiTuning::least_exponent, RadiiTuning::most_exponent);
     for (size_t j = 0; j < k; ++j)
-      if (std::fabs(q[j] - q[k]) < RadiiTuning::least_exponent)
+      if (std::fabs(q[j] - q[k]) < RadiiTuning::least_exponent * (1.0 - 1e-9))  // of doubles nearest to decimals
         fail(JAM_E_ARGUMENT, "exponent_%zu is %g and exponent_%zu %g: nearer than %g they count as one moment twice",
              j + 1, q[j], k + 1, q[k], RadiiTuning::least_exponent);
   }
@@ -92,13 +114,7 @@ void check_radii(const Packing &p, const jam_radii_options &o, const double *wei
     fail(JAM_E_ARGUMENT,
          "radius_max is %g, diameters of at least %g of the longest edge of the cell (%g) are supported", o.radius_max,
          limits::diameter_min, longest);
-  if (weights_len && weights_len != p.n())
-    fail(JAM_E_ARGUMENT, "weights_len is %zu, it must be 0 or n = %zu", weights_len, p.n());
-  for (size_t i = 0; i < weights_len; ++i)
-    if (!(weights[i] > 0.0 && weights[i] <= RadiiTuning::most_weight))
-      fail(JAM_E_ARGUMENT,
-           "weights[%zu] is %g, it must be positive and at most %g: without a weight a radius has no value", i,
-           weights[i], RadiiTuning::most_weight);
+  check_weights(p, weights, weights_len);
   if (p.model == JAM_MODEL_MK || p.non_additivity != 0.0)
     fail(JAM_E_UNSUPPORTED,
          "radii are unknowns of additive Euclidean spheres alone: no Mari-Kurchan shifts, no "

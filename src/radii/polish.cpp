@@ -25,9 +25,12 @@ std::vector<double> imbalance(const RadiiRows &contacts, const std::vector<doubl
 double residual(const RadiiRows &contacts, const std::vector<double> &wrong, const std::vector<double> &weight) {
   const double all = std::accumulate(weight.begin(), weight.end(), 0.0);
   double most = 0.0;
-  for (size_t q = 0; q < wrong.size(); ++q)
-    most = std::max(most,
-                    std::fabs(wrong[q]) / (q / contacts.block() < weight.size() ? weight[q / contacts.block()] : all));
+  for (size_t q = 0; q < wrong.size(); ++q) {
+    const size_t i = q / contacts.block();
+    const double part = std::fabs(wrong[q]) / (i < weight.size() ? weight[i] : all);
+    if (std::isnan(part)) return part;  // no balance
+    most = std::max(most, part);
+  }
   return most;
 }
 

@@ -98,6 +98,12 @@ class Refused(unittest.TestCase):
         for was, now in zip(before, (system.positions, system.diameters, system.cell)):
             np.testing.assert_array_equal(was, now)
 
+    def said(self, system, **options):
+        try:
+            return system.copy().maximise_radii(max_steps=1, **options).status_text
+        except jam.errors.ArgumentError as why:
+            return str(why)
+
     def test_bad_input_moves_nothing(self):
         s, wrong = box(5), jam.errors.ArgumentError
         self.refused(s, wrong, "radius_max is 0.1 and radius_min 0.2", radius_min=0.2, radius_max=0.1)
@@ -110,6 +116,8 @@ class Refused(unittest.TestCase):
         self.refused(s, wrong, r"weights\[2\] is 0", [1, 1, 0, 1, 1])
         self.refused(s, wrong, r"weights\[4\] is -1", [1, 1, 1, 1, -1])
         self.refused(s, wrong, r"weights\[1\] is 1e\+308, it must be positive and at most 1e\+100", [1, 1e308, 1, 1, 1])
+        self.refused(s, wrong, r"weights\[1\] is 1e-300 and the mean weight 8e\+99", [1e100, 1e-300, 1e100, 1e100, 1e100])
+        self.refused(s, wrong, r"weights\[0\] is 4\.9.*e-324 and the mean weight 0", np.full(5, 5e-324))
         self.refused(s, wrong, "weights_len is 3", [1, 1, 1])
         self.refused(s, jam.errors.NonfiniteError, r"weights\[0\]", [np.nan, 1, 1, 1, 1])
         far = jam.errors.UnsupportedError
@@ -125,6 +133,7 @@ class Refused(unittest.TestCase):
         for text, system, given, options in (
             ("exponent_1 is 2 and exponent_3 2: nearer than 0.01 they count as one moment twice", six, (), dict(moments=(2, 1, 2))),
             ("exponent_2 is 0, .* the number of spheres", six, (), dict(moments=(1, 0))),
+            ("exponent_1 is 0.02 and exponent_2 0.025: nearer than 0.01", six, (), dict(moments=(0.02, 0.025))),
             ("exponent_1 is 9, its size must be 0.01 to 8", six, (), dict(moments=[9])),
             ("weights and moments", six, (np.ones(6),), dict(moments=(1, 2))),
             ("radius_min 0.5 and radius_max inf", six, (), dict(moments=(1, 2), radius_min=0.5)),
@@ -133,6 +142,8 @@ class Refused(unittest.TestCase):
             ("too alike for 3 moments.* at least 3 values", two, (), dict(moments=(1, 2, 3))),
         ):
             self.refused(system, jam.errors.ArgumentError, text, *given, **options)
+        for low in range(1, 99):  # hundredths as doubles, whose differences are not all 0.01 or above
+            self.assertNotIn("nearer", self.said(six, moments=(low / 100, (low + 1) / 100)))
         self.refused(six, ValueError, "moments has 5 exponents, one to four are possible", moments=(1, 2, 3, 4, 5))
         self.refused(six, TypeError, "exponent_2", moments=(1, 2), exponent_2=3.0)  # was not heard
 

@@ -88,6 +88,10 @@ CASE(bad_arrays_are_refused) {
   double x[9] = {0.1, 0.1, 0.1, 0.5, 0.5, 0.5, 0.9, 0.9, 0.9}, s = 0.2, three[3] = {0.2, -0.1, 0.2};
   refused(&o, x, 8, &s, 1, JAM_E_ARGUMENT, "not a multiple of dim");
   refused(&o, NULL, 9, &s, 1, JAM_E_NULL, "positions");
+  o.n = 3;
+  refused(&o, x, 0, &s, 1, JAM_E_ARGUMENT, "positions has no numbers");
+  refused(&o, NULL, 0, &s, 0, JAM_E_ARGUMENT, "diameters has no numbers");
+  o.n = 0;
   refused(&o, x, 9, NULL, 1, JAM_E_NULL, "diameters");
   refused(&o, x, 9, NULL, 0, JAM_E_ARGUMENT, "without diameters");
   refused(&o, x, 9, three, 3, JAM_E_ARGUMENT, "diameters[1] is -0.1");

@@ -39,13 +39,14 @@ module jam_base
     procedure :: done
     procedure :: extents
     procedure, private :: copy_of
+    procedure, private :: take
     generic :: assignment(=) => copy_of
     final :: free_at_end
   end type jam_handle
 
   ! Reached through the type; a program may use these names for its own procedures.
   private :: random, from_arrays, read_file, read_checkpoint, tile, free, free_at_end, copy_of, positions, velocities, &
-             diameters, copy_view, write_file, notes, watch, cancel, why, done, extents, from_one
+             diameters, take, copy_view, write_file, notes, watch, cancel, why, done, extents, from_one
 
 contains
 
@@ -135,6 +136,7 @@ contains
     real(c_double), intent(in), contiguous, target, optional :: diameters(:), cell(:, :)
     type(jam_create_options), intent(in), optional :: options
     type(jam_create_options) :: o
+    type(c_ptr) :: made
     call jam_defaults(o)
     if (present(options)) o = options
     if (present(n)) o%n = n
@@ -142,8 +144,7 @@ contains
     if (present(seed)) o%seed = seed
     if (present(packing_fraction)) o%packing_fraction = packing_fraction
     if (present(diameters) .and. .not. present(n)) o%n = size(diameters)
-    call self%free()
-    call self%done(jam_create(o, diameters=diameters, cell=cell, out=self%sys))
+    call self%take(jam_create(o, diameters=diameters, cell=cell, out=made), made)
   end subroutine random
 
   ! Spheres at x(d, n), in the unit of box, which they are wrapped into; diameters: one of each, or an array of one for
@@ -155,8 +156,8 @@ contains
     real(c_double), intent(in), contiguous, target, optional :: cell(:, :)
     type(jam_create_options), intent(in), optional :: options
     type(jam_create_options) :: o
+    type(c_ptr) :: made
     character(120) :: text
-    call self%free()
     if (size(x, 1) > JAM_MAX_DIM) then
       write (text, '(2(a, i0), a)') 'x(', size(x, 1), ', ', size(x, 2), ') must be x(d, n): pass its transpose'
       call jam_set_error(trim(text))
@@ -164,11 +165,11 @@ contains
       return
     end if
     call jam_defaults(o)
-    o%dim = size(x, 1)
     if (present(options)) o = options
+    o%dim = size(x, 1)
     if (present(box)) o%box = box
     o%n = size(x, 2)
-    call self%done(jam_create(o, x, diameters, cell, self%sys))
+    call self%take(jam_create(o, x, diameters, cell, made), made)
   end subroutine from_arrays
 
   ! A file of any format that jam_read knows; notes() has what was changed or assumed. layout: what the file does not
@@ -178,11 +179,11 @@ contains
     character(*), intent(in) :: path
     type(jam_create_options), intent(in), optional :: options
     character(*), intent(in), optional :: layout
-    call self%free()
+    type(c_ptr) :: made
     if (present(layout)) then
-      call self%done(jam_read_as(path, layout, options, out=self%sys))
+      call self%take(jam_read_as(path, layout, options, out=made), made)
     else
-      call self%done(jam_read(path, options, out=self%sys))
+      call self%take(jam_read(path, options, out=made), made)
     end if
   end subroutine read_file
 
@@ -190,8 +191,8 @@ contains
   subroutine read_checkpoint(self, path)
     class(jam_handle), intent(inout) :: self
     character(*), intent(in) :: path
-    call self%free()
-    call self%done(jam_read_checkpoint(path, out=self%sys))
+    type(c_ptr) :: made
+    call self%take(jam_read_checkpoint(path, out=made), made)
   end subroutine read_checkpoint
 
   ! The copies of another packing side by side: count(c) of them along cell vector c.
@@ -200,10 +201,7 @@ contains
     class(jam_handle), intent(in) :: from
     integer, intent(in) :: count(:)
     type(c_ptr) :: made
-    call self%done(jam_tile(from%sys, int(count, c_int32_t), out=made))
-    if (self%status < 0) return
-    call self%free()
-    self%sys = made
+    call self%take(jam_tile(from%sys, int(count, c_int32_t), out=made), made)
   end subroutine tile
 
   subroutine copy_of(to, from)
@@ -215,11 +213,20 @@ contains
       return
     end if
     if (c_associated(to%sys, from%sys)) return
-    call to%done(jam_copy(from%sys, made))
-    if (to%status < 0) return
-    call to%free()
-    to%sys = made
+    call to%take(jam_copy(from%sys, made), made)
   end subroutine copy_of
+
+  ! What a call has made takes the place of the packing. A call that fails or is stopped leaves that.
+  subroutine take(self, status, made)
+    class(jam_handle), intent(inout) :: self
+    integer(c_int32_t), intent(in) :: status
+    type(c_ptr), intent(in) :: made
+    call self%done(status)
+    if (status < 0) return
+    if (.not. c_associated(made)) return
+    call self%free()
+    self%sys = made
+  end subroutine take
 
   subroutine free(self)
     class(jam_handle), intent(inout) :: self

@@ -150,6 +150,7 @@ contains
 
   subroutine mistakes()
     type(packing) :: none, few
+    type(jam_create_options) :: create
     real(c_double) :: turned(10, 3)
     real(c_double), allocatable :: force(:), gap(:)
     integer :: before
@@ -173,5 +174,14 @@ contains
     call expect(few%status == JAM_E_DIMENSION .and. few%why() == text, text)
     call few%read_file('no/such/file.xyz')
     call expect(few%status == JAM_E_IO .and. index(text, 'no/such/file.xyz') > 0, text)
+    call few%read_file('no/such/file.xyz', layout='columns=x y z')
+    call few%read_checkpoint('no/such/file')
+    call expect(few%status == JAM_E_IO, text)
+    call expect(all(shape(few%positions()) == [2, 8]), 'a failure leaves the packing')
+    call jam_defaults(create)
+    create%seed = 5
+    call few%from_arrays(reshape([0.2_c_double, 0.2_c_double, 0.6_c_double, 0.7_c_double], [2, 2]), [0.1_c_double], &
+                         options=create)
+    call expect(all(shape(few%positions()) == [2, 2]), 'the dimension is that of the positions')
   end subroutine mistakes
 end program fortran_packing

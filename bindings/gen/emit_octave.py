@@ -55,7 +55,7 @@ class Call:
         elif a.name in self.f.bools:
             made = f'{value}.is_defined() && flag({value}, "{a.name}")'
         elif a.type.scalar == "double":
-            made = f'{value}.is_defined() ? {value}.xdouble_value("{a.name} must be a number") : 0'
+            made = f'{value}.is_defined() ? real({value}, "{a.name}") : 0'
         else:
             made = f'{value}.is_defined() ? whole<{a.type.scalar}>({value}, "{a.name}"){index} : 0'
         self.lines.append(f"const {a.type.scalar} {a.name} = {made};")
@@ -85,7 +85,7 @@ class Call:
     def _start(self, a):
         self.more += [*START]
         for name, extents in START.items():
-            self.lines.append(f'const In<double> {name}(g, g.take("{name}"), "{name}", {_list(extents)}, false);')
+            self.lines.append(f'const In<double> {name}(g, g.take_start("{name}", o.c.dim, o.c.n), "{name}", {_list(extents)}, false);')
         members = ", ".join(f"{name}.data(), {name}.size()" for name in START)
         self.lines.append(f"const jam_start start = {{sizeof start, 0, {members}, Given::on_progress, g.user()}};")
         self.passed.append("&start")

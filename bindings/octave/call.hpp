@@ -30,14 +30,28 @@ inline std::string word_of(const Word *words, int32_t value) {
 
 [[noreturn]] inline void refuse(const std::string &text) { error_with_id("jam:argument", "%s", text.c_str()); throw; }
 
+inline bool is_numbers(const octave_value &value) { return (value.isnumeric() || value.islogical()) && value.isreal(); }
+
+inline double real(const octave_value &value, const std::string &name) {
+  if (!is_numbers(value) || value.numel() != 1) refuse(name + " must be a number");
+  return value.double_value();
+}
+
 template <class T>
 T whole(const octave_value &value, const std::string &name) {
-  if (value.is_uint64_type()) return static_cast<T>(value.uint64_scalar_value().value());
-  const double x = value.xdouble_value("%s must be a number", name.c_str());
-  const bool fits = x >= static_cast<double>(std::numeric_limits<T>::min()) &&
-                    x < std::ldexp(1.0, std::numeric_limits<T>::digits);
-  if (!fits || x != std::floor(x)) refuse(name + " must be a whole number, not " + std::to_string(x));
-  return static_cast<T>(x);
+  using Limits = std::numeric_limits<T>;
+  const std::string wrong = name + " must be a whole number of " + std::to_string(8 * sizeof(T)) + " bits";
+  if (!is_numbers(value) || value.numel() != 1) refuse(wrong);
+  const double x = value.double_value();
+  if (value.isinteger()) {  // conversions saturate: a number of 64 bits is exact in one of both
+    const int64_t low = value.int64_scalar_value().value();
+    const uint64_t high = value.uint64_scalar_value().value();
+    if (low < 0 && Limits::is_signed && low >= static_cast<int64_t>(Limits::min())) return static_cast<T>(low);
+    if (low >= 0 && high <= static_cast<uint64_t>(Limits::max())) return static_cast<T>(high);
+  } else if (x == std::floor(x) && x >= static_cast<double>(Limits::min()) && x < std::ldexp(1.0, Limits::digits)) {
+    return static_cast<T>(x);
+  }
+  refuse(wrong + ", not " + std::to_string(x));
 }
 
 inline int32_t number_of(const Word *words, const octave_value &value, const std::string &name) {
@@ -73,7 +87,7 @@ inline octave_value read(const void *data, const Member &m) {
 inline void write(void *data, const Member &m, const octave_value &value) {
   char *at = static_cast<char *>(data) + m.at;
   switch (m.kind) {
-    case 'd': *reinterpret_cast<double *>(at) = value.xdouble_value("%s must be a number", m.name); break;
+    case 'd': *reinterpret_cast<double *>(at) = real(value, m.name); break;
     case 'b': *reinterpret_cast<int32_t *>(at) = flag(value, m.name); break;
     case 'w': *reinterpret_cast<int32_t *>(at) = number_of(m.words, value, m.name); break;
     case 'i': *reinterpret_cast<int32_t *>(at) = whole<int32_t>(value, m.name); break;
@@ -127,12 +141,19 @@ class Given {
     known_[name] = octave_value();
     return value;
   }
+  // Of an array by which a packing is made; n is 0 where the arrays tell it.
+  octave_value take_start(const std::string &name, int32_t d, int64_t n) {
+    d_ = d, n_ = n > 0 ? static_cast<double>(n) : -1;
+    octave_value value = take(name);
+    if (value.is_defined() && value.isempty()) refuse(name + " is empty: leave it out");
+    return value;
+  }
   jam_system *system() const { return sys_; }
 
   // A letter of the header's shapes, or a number; -1 where the call tells it.
   double extent(const std::string &text) const {
     if (std::isdigit(text[0])) return std::stod(text);
-    if (!sys_) return -1;
+    if (!sys_) return text == "d" ? d_ : text == "n" ? n_ : -1;
     jam_info info = {};
     info.struct_size = sizeof info;
     jam_get_info(sys_, &info);
@@ -206,6 +227,7 @@ class Given {
 
   std::string call_;
   jam_system *sys_;
+  double d_ = -1, n_ = -1;  // of the packing that is made
   std::vector<octave_value> values_;
   std::map<std::string, octave_value> known_;
   octave_value progress_;
@@ -229,14 +251,15 @@ struct In {
   std::vector<T> c;
   In(const Given &given, const octave_value &value, const char *name, std::vector<const char *> extents, bool index) {
     if (!value.is_defined() || value.isempty()) return;
-    const NDArray x = value.xarray_value("%s must be an array of numbers", name);
+    if (!is_numbers(value)) refuse(std::string(name) + " must be an array of numbers");
+    const NDArray x = value.array_value();
     const int rank = static_cast<int>(extents.size());
     bool shaped = rank > 1 && x.ndims() == rank;
     for (int j = 0; shaped && j < rank; ++j) {
       const double wanted = given.extent(extents[j]);
       shaped = wanted < 0 || wanted == static_cast<double>(x.dims()(j));
     }
-    if (rank > 1 && !shaped && !x.dims().isvector()) refuse(std::string(name) + " cannot have the size " + x.dims().str());
+    if (!shaped && !x.dims().isvector()) refuse(std::string(name) + " cannot have the size " + x.dims().str());
     c.resize(static_cast<size_t>(x.numel()));
     for (octave_idx_type k = 0; k < x.numel(); ++k) {
       const double v = x(shaped ? turned(k, x.dims(), rank) : k);

@@ -35,6 +35,27 @@ fails("jam:argument", "polish must be true or false", @() p.crunch("polish", "no
 fails("jam:argument", "whole number", @() p.crunch("max_lps", 2.5));
 fails("jam:argument", "whole number", @() jam.random(16, "overlap", 0.7));
 assert(p.crunch("polish", 1).jammed);
+for bad = {uint64(2 ^ 32 + 2), int64(-2 ^ 40), 2 ^ 40, [2, 3], 2 + 1i, "2", [], {2}}
+  fails("jam:argument", "dim must be a whole number", @() jam.random(16, "dim", bad{1}));
+end
+for bad = {intmax("uint64"), [5, 2], 3 + 1i, "7", NaN}
+  fails("jam:argument", "seed must be a whole number", @() jam.random(16, "seed", bad{1}));
+  fails("jam:argument", "count must be a whole number", @() p.modes("count", bad{1}));
+end
+for bad = {[0.1, 0.3], 0.1 + 1i, "x", []}
+  fails("jam:argument", "packing_fraction must be a number", @() jam.random(16, "packing_fraction", bad{1}));
+  fails("jam:argument", "h_max must be a number", @() p.gaps(bad{1}));
+end
+assert(jam.random(16, "dim", int8(2), "packing_fraction", single(0.25)).info().dim, 2);
+
+% arrays are (n, d) also where a packing is made, and are there or left out, not empty
+for bad = {q.positions()', zeros(64, 3), [], zeros(0, 2), "12", q.positions() + 1i, {1, 2}}
+  fails("jam:argument", "positions", @() jam.create("dim", 2, "positions", bad{1}, "diameters", q.diameters()));
+end
+fails("jam:argument", "positions cannot have the size 3x20", @() jam.create("positions", rand(3, 20), "diameters", 1e-3));
+fails("jam:argument", "diameters cannot have the size 2x2", @() jam.random(4, "diameters", ones(2, 2)));
+fails("jam:argument", "cell cannot have the size 2x3", @() jam.random(4, "dim", 2, "cell", ones(2, 3)));
+fails("jam:argument", "diameters", @() jam.random(4, "diameters", "1234"));
 
 % contacts: indices from 1, rows in the order of forces
 pairs = p.contacts();

@@ -86,6 +86,8 @@ export class Core {
         return at;
       },
       array: (values, type, name) => {
+        if (!Array.isArray(values) && !(ArrayBuffer.isView(values) && 'length' in values))
+          throw new JamError('argument', `${name} must be an array of numbers`);
         const size = type === 'int32_t' ? 4 : 8;
         const at = arena.room(values.length * size);
         this.fill(at, values, type, name);
@@ -112,8 +114,11 @@ export class Core {
 
   fill(at, values, type, name) {
     const { buffer } = this.view();
-    if (type === 'double') new Float64Array(buffer, at, values.length).set(values);
-    else {
+    if (type === 'double') {
+      const wrong = Array.prototype.findIndex.call(values, (v) => typeof v !== 'number');
+      if (wrong >= 0) throw new JamError('argument', `${name}[${wrong}] must be a number, not ${typeof values[wrong]}`);
+      new Float64Array(buffer, at, values.length).set(values);
+    } else {
       const wrong = Array.prototype.findIndex.call(values, (v) => !Number.isSafeInteger(Number(v)));
       if (wrong >= 0) throw new JamError('argument', `${name}[${wrong}] must be a whole number, not ${values[wrong]}`);
       if (type === 'int32_t') {

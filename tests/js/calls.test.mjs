@@ -128,6 +128,26 @@ test('what is no file is refused by what it must be', async () => {
   await assert.rejects(jam.read(packing.checkpoint(), { name: 'a.jam' }), { status: 'format', message: /readCheckpoint reads it/ });
 });
 
+test('arrays are arrays of numbers', () => {
+  const p = jam.random({ n: 5, dim: 2 });
+  for (const wrong of [5, {}, true, '1234', new DataView(new ArrayBuffer(16)), new Set([0.1, 0.2])]) {
+    fails(() => jam.from({ positions: wrong, diameters: 0.1, dim: 2 }), 'argument', 'positions must be an array');
+    if (typeof wrong !== 'number') fails(() => jam.random({ n: 4, diameters: wrong }), 'argument', 'diameters must be an array');
+    fails(() => jam.random({ n: 4, cell: wrong }), 'argument', 'cell must be an array');
+    if (Object.getPrototypeOf(wrong) !== Object.prototype) // an object of options
+      fails(() => p.setPositions(wrong), 'argument', 'positions must be an array');
+    fails(() => p.tile(wrong), 'argument', 'count must be an array');
+  }
+  for (const wrong of [['0.1', 0.2], [[0.1, 0.2]], [true, 0.2], [null, 0.2], [0.1, 2n], [, 0.2]])
+    fails(() => jam.from({ positions: wrong, diameters: 0.1, dim: 2 }), 'argument', 'positions[', 'must be a number');
+  for (const empty of [[], new Float64Array(0)]) {
+    fails(() => jam.from({ positions: empty, diameters: 0.1 }), 'argument', 'positions has no numbers');
+    fails(() => jam.random({ n: 4, diameters: empty }), 'argument', 'diameters has no numbers');
+  }
+  const one = jam.from({ positions: new Float32Array([0.25, 0.5]), diameters: [0.125], dim: 2 });
+  assert.deepEqual([...one.positions, ...one.diameters], [0.25, 0.5, 0.125]);
+});
+
 test('whole numbers are numbers: a text or a truth is none, nor has it a fraction', () => {
   for (const seed of ['', '5', true, 2.5, null]) fails(() => jam.random({ n: 8, seed }), 'argument', 'seed must be a whole number');
   fails(() => jam.random({ n: 8, overlap: 0.7 }), 'argument', 'overlap is 0.7');

@@ -1218,9 +1218,9 @@ typedef struct jam_shear_report {
   int32_t stop_reason; /* @enum jam_stop_reason: STRAIN at the last strain, else why before */
   int32_t rigid;       /* @bool contacts carry force at the end */
   int32_t reserved;
-  double strain;                       /* reached: amplitude at the end; NaN, as energy, without a first minimum */
+  double strain;                       /* reached: amplitude at the end */
   double stress, pressure;             /* at the end, as in the history */
-  double energy, packing_fraction;     /* U; of the diameters, hard spheres: phi_J */
+  double energy, packing_fraction;     /* U, NaN without a first minimum; of the diameters, hard: phi_J */
   double first_event;                  /* strain before the first event, known to the resolution; NaN: none */
   double peak_stress, peak_strain;     /* largest |stress| of all rows, with its sign, and where */
   int64_t events, steps;               /* plastic events; minima, those of located events too */

@@ -47,7 +47,7 @@ class Shear {
     effort_.phase = JAM_PHASE_SHEAR;
     effort_.pressure = std::nan("");
     jam_shear_report &r = out_.report;
-    r.strain = r.stress = r.pressure = r.energy = r.first_event = r.peak_stress = r.peak_strain = std::nan("");
+    r.stress = r.pressure = r.energy = r.first_event = r.peak_stress = r.peak_strain = std::nan("");
     r.contacts = r.rattlers = -1;
   }
 

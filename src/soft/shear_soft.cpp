@@ -195,7 +195,8 @@ FindMinimum soft_minimum(const jam_shear_options &o, const ShearPath &path, Effo
     out.enthalpy = out.at.report.energy + out.confining * out.volume;
     if (out.at.report.contacts > 0) out.stress = stress_tensor(out.at.packing, out.at.contacts);
     if (cell.count() > 0) out.strain = strain_between(p.cell, out.at.packing.cell);
-    if (end == DescentEnd::yields && !cell.beyond.empty()) {
+    const bool collapsed = out.at.packing.cell.shortest() < diameter_max(out.at.packing);  // is refused with its cell
+    if (end == DescentEnd::yields && !collapsed) {
       out.why = out_of_reach(cell, out);
       if (first) out.at.packing = p, out.at.contacts = {}, out.at.contacts.coordination.assign(p.n(), 0);
     }

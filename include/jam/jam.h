@@ -49,7 +49,7 @@
  * Status, for every call unless its comment says otherwise
  * - 0 done; > 0 stopped early, or the answer is negative, imprecise or not unique: the state is valid and kept; < 0
  *   failed, the state is as before the call. For every status but 0 jam_last_error() gives the reason in one sentence.
- *   A status < 0 writes no output but `needed` or `rows` with JAM_E_BUFFER.
+ *   A status < 0 writes no output but `needed` or `rows`, always with JAM_E_BUFFER.
  * - Calls that work on a system or make one may return JAM_CANCELLED; calls with a wall_time may return JAM_LIMIT. A
  *   setter or a const call that returns either has changed nothing and written no output, but a part to a pipe.
  * - Comments end in tags: @shape of arrays; @enum, @bool and @optional of arguments; @errors besides those of any call.

@@ -81,6 +81,7 @@ CASE(free_cells_of_the_largest_and_smallest_box) {
       o.strain = JAM_STRAIN_FREE;
       if (jam_crunch(sys, &o, nullptr) < 0) fail_msg("box %g: %s", box, jam_last_error());
       OWNED jam_system *again = from_checkpoint(sys);
+      assert_non_null(again);
     }
 }
 

@@ -244,6 +244,18 @@ CASE(a_sweep_is_the_longest_that_a_call_goes_on) {
   same_view(a, b, JAM_VIEW_POSITIONS);
 }
 
+/* In a gas trials are as long as half the cell. Spheres are in cells then, and lists have the pairs near contact alone:
+ * all pairs would take five times this memory. The second virial coefficient gives 1 + 4 phi. */
+CASE(a_gas_lists_no_far_pairs) {
+  DEFAULTS(create, c);
+  c.n = 2000, c.packing_fraction = 1e-3;
+  OWNED jam_system *sys = created(&c);
+  assert_int_equal(jam_set_memory_limit(sys, 1e7), JAM_OK);
+  const jam_monte_carlo_options o = options(0.0, 1.0, 100);
+  const jam_monte_carlo_report r = run(sys, &o);
+  assert_true(r.step * 0.1 > 1.0 && fabs(r.pressure - 1.004) < 0.01);
+}
+
 /* Few samples say nothing of the pressure, unless their fit is sharp. */
 CASE(a_pressure_of_few_samples_is_none) {
   for (int64_t seed = 0; seed < 20; ++seed) {

@@ -47,8 +47,9 @@ class MonteCarloSpheres : public MonteCarlo {
     const double best =
         std::min(longest, std::max(Tuning::shortest_skin, Tuning::skin_steps * step / skin_unit_)) * skin_unit_;
     skin_ = std::max(least, std::min(best, room));
-    if (skin_ > room) skin_ = everything;  // a small box: all pairs are listed permanently
     choose_cells();
+    // A trial may leave any list: then all pairs are listed permanently. Cells need lists for gaps alone.
+    if (skin_ > room) skin_ = in_cells() ? std::min(best, room) : everything;
     if (!in_cells()) make_lists();
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/call_scope.hpp"
 #include "core/create.hpp"
 #include "core/limits.hpp"
 #include "core/pairs.hpp"
@@ -77,6 +78,7 @@ void EngineOf<D, O>::check_pairs() const {
 #ifdef JAM_CHECK_PAIRS
   if (sums.collisions == 0 || sums.events < next_check_) return;  // overlaps of the start are the caller's
   next_check_ = sums.events + 32 * static_cast<int64_t>(spheres_.n);
+  const CallScope quiet(CallScope::memory_limit());  // no callback sees what is half made
   Packing p = start_;
   write_state(p);
   const ClosestPair worst = closest_pair(p);

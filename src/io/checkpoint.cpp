@@ -28,7 +28,7 @@ double tilt_max(int dim) { return 2.0 * defect_max(dim); }
 constexpr double vectors_max = 1e7;
 
 // The last character is the version of the format, which rises with every change of what is archived.
-constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', 'b'};
+constexpr char magic[8] = {'j', 'a', 'm', 's', 't', 'a', 't', 'a'};
 
 struct Header {
   char magic[8];

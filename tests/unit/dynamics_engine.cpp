@@ -243,4 +243,17 @@ CASE(archives_hold_nothing_else) {
     for (size_t at = used; at < sizeof first; ++at) assert_int_equal(a.bytes()[bodies + i * sizeof first + at], 0);
 }
 
+// Stages of an earlier form have a plain phase. They are named, and no bytes of them are taken for others.
+CASE(stages_of_another_version_are_refused) {
+  for (const int32_t phase : {JAM_PHASE_RUN, JAM_PHASE_COMPRESS, JAM_PHASE_MONTE_CARLO}) {
+    std::string bytes(reinterpret_cast<const char *>(&phase), sizeof phase), why;
+    try {
+      read_dynamics(random_packing(2, 50, 0.3, 1.0, 5), bytes);
+    } catch (const Error &e) {
+      why = e.what();
+    }
+    assert_true(why.find("another version") != std::string::npos);
+  }
+}
+
 }  // namespace
